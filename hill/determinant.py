@@ -1,0 +1,191 @@
+r"""Hill's infinite determinant Delta(alpha), times what makes it a polynomial in z.
+
+Written out, the harmonics c_m of Eq. (6.2.6) obey T(alpha) c = 0 with the blocks
+
+    T_mm = Fbar - (alpha + m)^2,     T_m,m+-p = B_p,     Fbar = (F - eta^2/4)/Omega^2,
+
+where B_1 = gamma G/(2 Omega^2) and B_(s r) gains H_s/(2 Omega^2), r = omega_L/Omega. Dividing each
+row by its diagonal element gives Delta(alpha) of (6.2.8), with poles where Fbar_jj = (alpha+m)^2.
+The poles belong to the division, not to the problem: with z = cos 2 pi alpha the product
+Delta(alpha) prod_j (z - zeta_j) has none, because z - zeta_j is the product of the divisors,
+
+    z - zeta_j = 2 pi^2 (w^2 - alpha^2) prod_(m>=1) [(m+alpha)^2 - w^2] [(m-alpha)^2 - w^2] / m^4,
+
+w^2 = Fbar_jj. So the finite determinant is left undivided, and what lies beyond |m| = M is summed:
+the product of the blocks' own determinants exactly (`log_block_tail`), the coupling to second
+order (`log_pair_tail`). What is left falls like M^-5 or faster, and is extrapolated away in
+`hill.characteristic`.
+"""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg.lapack import zgbtrf
+from scipy.special import zeta
+
+from hill.equation import HillEquation
+
+Complex = NDArray[np.complexfloating[Any, Any]]
+Float = NDArray[np.floating[Any]]
+
+# Gauss nodes for the tail's integral. Its integrand is analytic to twice the interval's length
+# (M >= 2 w below), so 12 nodes leave 6**-24 = 2e-19.
+NODES = 12
+# Series terms of the block tail: (w + |alpha|)/M <= 0.6 makes 0.6**(2*40) = 2e-18.
+SERIES = 40
+
+
+@dataclass(frozen=True, eq=False)
+class Blocks:
+    """Fbar (6.2.10), as a whole matrix, and B_p of the harmonics p = 1, 2, ... present."""
+
+    Fbar: Float
+    B: dict[int, Float]
+
+    @property
+    def n(self) -> int:
+        """Rows of a block."""
+        return len(self.Fbar)
+
+    @property
+    def reach(self) -> int:
+        """The highest harmonic."""
+        return max(self.B, default=0)
+
+    @property
+    def squares(self) -> Complex:
+        """The squares w^2 of the constant system's frequencies: eigenvalues of Fbar."""
+        return np.asarray(np.linalg.eigvals(self.Fbar), complex)
+
+    @property
+    def highest(self) -> float:
+        """The largest |w|."""
+        return float(np.sqrt(np.max(np.abs(self.squares))))
+
+
+def blocks(equation: HillEquation) -> Blocks:
+    """The blocks of T, Eqs. (6.2.6) to (6.2.10), in the time Omega tau."""
+    Omega2 = equation.Omega**2
+    damping = 0.25 * equation.damping**2 * np.eye(equation.n)
+    terms = {1: 0.5 * equation.gamma * equation.G / Omega2}
+    for s, H_s in enumerate(equation.H, start=1):
+        p = s * equation.ratio
+        terms[p] = terms.get(p, 0.0) + 0.5 * H_s / Omega2
+    return Blocks(
+        Fbar=(equation.F - damping) / Omega2,
+        B={p: term for p, term in terms.items() if np.any(term)},
+    )
+
+
+def determinants(system: Blocks, alpha: Complex, M: int, squares: Complex) -> Complex:
+    """prod_j (z - zeta_j) Delta(alpha) from |m| <= M, with the uncoupled rows beyond it exact.
+
+    Parameters
+    ----------
+    alpha : (k,) complex ndarray
+        Any points, poles of Delta included.
+    M : int
+        The harmonics kept; must exceed the frequencies (see `least_truncation`).
+    squares : (n,) complex ndarray
+        w^2 for the tail: the diagonal of Fbar is the report's Delta, the eigenvalues of Fbar make
+        the tail exact where there is no coupling.
+    """
+    tail = np.exp(log_block_tail(squares, alpha, M))
+    finite = np.array([_finite(system, a, M) for a in alpha])
+    return np.asarray((2.0 * np.pi**2) ** system.n * finite * tail, complex)
+
+
+def least_truncation(system: Blocks) -> int:
+    """M from which the tails' expansions hold: w/M <= 1/2, clear of the couplings' reach.
+
+    A strong coupling moves the blocks' own frequencies by the square root of its strength; the
+    factor 16 brings the extrapolated remainder to rounding for the strongest of Table 3.
+    """
+    coupling = sum((np.abs(B) for B in system.B.values()), np.zeros_like(system.Fbar))
+    strength = float(np.max(np.abs(np.linalg.eigvals(coupling)))) if system.B else 0.0
+    return int(2.0 * system.highest + 16.0 * np.sqrt(strength)) + 2 * system.reach + 30
+
+
+def _finite(system: Blocks, alpha: complex, M: int) -> complex:
+    """Det T over |m| <= M, each row divided by m^2 (m = 0: by 1), by banded LU with pivoting."""
+    n, reach = system.n, min(system.reach, 2 * M)
+    m = np.arange(-M, M + 1)
+    scale = np.where(m == 0, 1, m * m).astype(float)
+    size, width = n * len(m), (reach + 1) * n - 1
+    band = np.zeros((3 * width + 1, size), complex)
+
+    def put(p: int, block: Float) -> None:
+        rows = np.arange(max(0, -p), len(m) - max(0, p))
+        for j, k in zip(*np.nonzero(block), strict=True):
+            band[2 * width + j - k - p * n, (rows + p) * n + k] = block[j, k] / scale[rows]
+
+    put(0, system.Fbar)
+    for p, B in system.B.items():
+        if p <= reach:
+            put(p, B)
+            put(-p, B)
+    diagonal = band[2 * width].reshape(len(m), n)
+    diagonal -= ((alpha + m) ** 2 / scale)[:, None]
+    lu, pivots, _ = zgbtrf(band, width, width, overwrite_ab=1)
+    swaps = np.count_nonzero(pivots != np.arange(size))
+    return (-1) ** swaps * _product(lu[2 * width])
+
+
+def _product(factors: Complex) -> complex:
+    """Product of many factors, its magnitude kept apart so that nothing overflows on the way."""
+    exponent = 0
+    while len(factors) > 1:
+        # groups of 16 factors of at most 2**60 each stay below 2**1023
+        padded = np.append(factors, np.ones(-len(factors) % 16))
+        shifts = np.frexp(np.abs(padded))[1]
+        exponent += int(shifts.sum())
+        factors = np.prod((padded * np.ldexp(1.0, -shifts)).reshape(-1, 16), axis=1)
+    if factors[0] == 0:
+        return 0j
+    with np.errstate(over="raise"):
+        return complex(np.ldexp(factors[0].real, exponent), np.ldexp(factors[0].imag, exponent))
+
+
+def log_block_tail(squares: Complex, alpha: Complex, M: int) -> Complex:
+    """Log of prod_(m>M) [(m+alpha)^2 - w^2][(m-alpha)^2 - w^2]/m^4, summed over the w.
+
+    The bracket factors into 1 - x^2/m^2 with x = w + alpha and w - alpha; its logarithm is a
+    series in x^2 whose sums over m are Hurwitz zeta functions.
+    """
+    w = np.sqrt(squares)
+    x2 = np.concatenate([np.add.outer(w, alpha), np.subtract.outer(w, alpha)]) ** 2
+    k = np.arange(1, SERIES + 1)
+    terms = (x2[..., None] / M**2) ** k * (zeta(2 * k, M + 1) * float(M) ** (2 * k) / k)
+    return np.asarray(-np.sum(terms, axis=(0, -1)))
+
+
+def log_pair_tail(system: Blocks, alpha: Complex, M: int) -> Complex:
+    """The coupling beyond |m| = M, to second order in B: -1/2 tr K^2 of log det(1 + K).
+
+    A pair of blocks (m, m + p) contributes -tr[R(s) B_p R(s + p) B_p], R(s) = (Fbar - s^2)^-1,
+    s = alpha + m, to all orders in F. The pairs with a block outside are summed over both ends by
+    Euler and Maclaurin's midpoint rule; the first term it drops is (7/5760) f''', less than
+    1e-13 |B|^2 for every M of `least_truncation`, and it too is extrapolated away.
+    """
+    total = np.zeros(len(alpha), complex)
+    node, weight = np.polynomial.legendre.leggauss(NODES)
+    t, weight = 0.5 * (node + 1.0), 0.5 * weight
+    identity = np.eye(system.n)
+
+    def resolvent(s: Complex) -> Complex:
+        return np.linalg.inv(system.Fbar - (s * s)[..., None, None] * identity)
+
+    for p, B in system.B.items():
+
+        def f(y: Complex, p: int = p, B: Float = B) -> Complex:
+            """A pair centred at y."""
+            left, right = resolvent(y - 0.5 * p) @ B, resolvent(y + 0.5 * p) @ B
+            return np.einsum("...jk,...kj->...", left, right)
+
+        for end in (alpha, -alpha):
+            edge = end + (M + 0.5 - 0.5 * p)  # halfway between the last pair kept and the next
+            far = f(np.divide.outer(edge, t)) / t**2 @ weight * edge  # integral from edge to oo
+            total -= far + (f(edge + 0.5) - f(edge - 0.5)) / 24.0
+    return total
