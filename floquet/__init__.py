@@ -1,0 +1,2 @@
+from floquet.monodromy import Monodromy as Monodromy
+from floquet.monodromy import monodromy as monodromy
