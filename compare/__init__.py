@@ -1,0 +1,3 @@
+from compare.row import Outcome as Outcome
+from compare.run import Report as Report
+from compare.run import verify as verify

@@ -1,0 +1,17 @@
+"""Holding printed numbers against computed ones."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import linear_sum_assignment
+
+Complex = NDArray[np.complexfloating[Any, Any]]
+
+
+def distance(z: Sequence[complex] | Complex, other: Sequence[complex] | Complex) -> float:
+    """Largest |z - other| under the pairing with the smallest sum."""
+    apart = np.abs(np.subtract.outer(np.asarray(z, complex), np.asarray(other, complex)))
+    pairs = linear_sum_assignment(apart)
+    return float(apart[pairs].max())
