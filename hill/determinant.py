@@ -18,6 +18,7 @@ order (`log_pair_tail`). What is left falls like M^-5 or faster, and is extrapol
 """
 
 from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -35,6 +36,8 @@ Float = NDArray[np.floating[Any]]
 NODES = 12
 # Series terms of the block tail: (w + |alpha|)/M <= 0.6 makes 0.6**(2*40) = 2e-18.
 SERIES = 40
+# Its powers M**(2*SERIES) must stay below 1e308, at the finest level 1.5 M.
+MOST = 4000
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,10 +94,21 @@ def determinants(system: Blocks, alpha: Complex, M: int, squares: Complex) -> Co
     squares : (n,) complex ndarray
         w^2 for the tail: the diagonal of Fbar is the report's Delta, the eigenvalues of Fbar make
         the tail exact where there is no coupling.
+
+    Raises
+    ------
+    OverflowError
+        P(z) is too large for a float.
     """
-    tail = np.exp(log_block_tail(squares, alpha, M))
-    finite = np.array([_finite(system, a, M) for a in alpha])
-    return np.asarray((2.0 * np.pi**2) ** system.n * finite * tail, complex)
+    log_tail = log_block_tail(squares, alpha, M)
+    shift = np.round(log_tail.real / np.log(2.0))
+    tail = np.exp(log_tail - shift * np.log(2.0))
+    mantissa, exponent = _finite(system, alpha, M)
+    value = (2.0 * np.pi**2) ** system.n * mantissa * tail
+    power = exponent + shift.astype(int)
+    if np.any(power > 1000):
+        raise OverflowError("the solution grows beyond what a float can hold within one period")
+    return np.asarray(value * np.ldexp(1.0, power))
 
 
 def least_truncation(system: Blocks) -> int:
@@ -102,50 +116,66 @@ def least_truncation(system: Blocks) -> int:
 
     A strong coupling moves the blocks' own frequencies by the square root of its strength; the
     factor 16 brings the extrapolated remainder to rounding for the strongest of Table 3.
+
+    Raises
+    ------
+    ValueError
+        More than `MOST` harmonics are needed.
     """
     coupling = sum((np.abs(B) for B in system.B.values()), np.zeros_like(system.Fbar))
     strength = float(np.max(np.abs(np.linalg.eigvals(coupling)))) if system.B else 0.0
-    return int(2.0 * system.highest + 16.0 * np.sqrt(strength)) + 2 * system.reach + 30
+    M = int(2.0 * system.highest + 16.0 * np.sqrt(strength)) + 2 * system.reach + 30
+    if M > MOST:
+        raise ValueError(
+            f"Omega: too small for the determinant, which needs {M} harmonics of it (at most "
+            f"{MOST}); the highest frequency is {system.highest:.3g} Omega"
+        )
+    return M
 
 
-def _finite(system: Blocks, alpha: complex, M: int) -> complex:
-    """Det T over |m| <= M, each row divided by m^2 (m = 0: by 1), by banded LU with pivoting."""
+def _finite(system: Blocks, alpha: Complex, M: int) -> tuple[Complex, NDArray[np.int_]]:
+    """Det T over |m| <= M, each row divided by m^2 (m = 0: by 1), by banded LU with pivoting.
+
+    As mantissas and powers of two.
+    """
     n, reach = system.n, min(system.reach, 2 * M)
     m = np.arange(-M, M + 1)
-    scale = np.where(m == 0, 1, m * m).astype(float)
+    scale = np.where(m == 0, 1.0, m * m)
     size, width = n * len(m), (reach + 1) * n - 1
-    band = np.zeros((3 * width + 1, size), complex)
+    band = np.zeros((3 * width + 1, len(m), n), complex)  # diagonal of T, block column, column
 
     def put(p: int, block: Float) -> None:
-        rows = np.arange(max(0, -p), len(m) - max(0, p))
+        rows = slice(max(0, -p), len(m) - max(0, p))
+        columns = slice(max(0, p), len(m) - max(0, -p))
         for j, k in zip(*np.nonzero(block), strict=True):
-            band[2 * width + j - k - p * n, (rows + p) * n + k] = block[j, k] / scale[rows]
+            band[2 * width + j - k - p * n, columns, k] = block[j, k] / scale[rows]
 
     put(0, system.Fbar)
     for p, B in system.B.items():
         if p <= reach:
             put(p, B)
             put(-p, B)
-    diagonal = band[2 * width].reshape(len(m), n)
-    diagonal -= ((alpha + m) ** 2 / scale)[:, None]
-    lu, pivots, _ = zgbtrf(band, width, width, overwrite_ab=1)
-    swaps = np.count_nonzero(pivots != np.arange(size))
-    return (-1) ** swaps * _product(lu[2 * width])
+    mantissa, exponent = np.empty(len(alpha), complex), np.empty(len(alpha), int)
+    for i, a in enumerate(alpha):
+        table = band.copy()
+        table[2 * width] -= ((a + m) ** 2 / scale)[:, None]
+        lu, pivots, _ = zgbtrf(table.reshape(-1, size), width, width)
+        swaps = np.count_nonzero(pivots != np.arange(size))
+        product, exponent[i] = _product(lu[2 * width])
+        mantissa[i] = (-1) ** swaps * product
+    return mantissa, exponent
 
 
-def _product(factors: Complex) -> complex:
-    """Product of many factors, its magnitude kept apart so that nothing overflows on the way."""
+def _product(factors: Complex) -> tuple[complex, int]:
+    """Product of many factors as a mantissa and a power of two, so that nothing overflows."""
     exponent = 0
     while len(factors) > 1:
-        # groups of 16 factors of at most 2**60 each stay below 2**1023
+        # groups of 16 factors in [1/2, 1) stay above 2**-16
         padded = np.append(factors, np.ones(-len(factors) % 16))
         shifts = np.frexp(np.abs(padded))[1]
         exponent += int(shifts.sum())
         factors = np.prod((padded * np.ldexp(1.0, -shifts)).reshape(-1, 16), axis=1)
-    if factors[0] == 0:
-        return 0j
-    with np.errstate(over="raise"):
-        return complex(np.ldexp(factors[0].real, exponent), np.ldexp(factors[0].imag, exponent))
+    return complex(factors[0]), exponent
 
 
 def log_block_tail(squares: Complex, alpha: Complex, M: int) -> Complex:
@@ -161,6 +191,13 @@ def log_block_tail(squares: Complex, alpha: Complex, M: int) -> Complex:
     return np.asarray(-np.sum(terms, axis=(0, -1)))
 
 
+@cache
+def _gauss() -> tuple[Float, Float]:
+    """Gauss and Legendre's nodes and weights on [0, 1]."""
+    node, weight = np.polynomial.legendre.leggauss(NODES)
+    return 0.5 * (node + 1.0), 0.5 * weight
+
+
 def log_pair_tail(system: Blocks, alpha: Complex, M: int) -> Complex:
     """The coupling beyond |m| = M, to second order in B: -1/2 tr K^2 of log det(1 + K).
 
@@ -170,8 +207,7 @@ def log_pair_tail(system: Blocks, alpha: Complex, M: int) -> Complex:
     1e-13 |B|^2 for every M of `least_truncation`, and it too is extrapolated away.
     """
     total = np.zeros(len(alpha), complex)
-    node, weight = np.polynomial.legendre.leggauss(NODES)
-    t, weight = 0.5 * (node + 1.0), 0.5 * weight
+    t, weight = _gauss()
     identity = np.eye(system.n)
 
     def resolvent(s: Complex) -> Complex:

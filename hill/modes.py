@@ -64,7 +64,7 @@ def mode(n: int) -> Exponentials:
     c: Complex = np.array(
         [grown, 0.5 * (1 + 1j * alpha), 0.5 * (1 + alpha), 0.5 * (1 - 1j * alpha)]
     )
-    kappa: Complex = lam * np.array([1, 1j, -1, -1j], dtype=complex)
+    kappa: Complex = np.array([lam, 1j * lam, -lam, -1j * lam])
     return Exponentials(c, kappa, np.array([-lam, 0, 0, 0], complex))
 
 
