@@ -1,0 +1,34 @@
+"""What the commands share at the terminal: its width, and a bar on the standard error."""
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+
+WIDE = 140
+"""Columns where there is no terminal to ask."""
+
+
+def terminal() -> Console:
+    """The standard output: as wide as it is, or wide enough for everything."""
+    console = Console()
+    return console if console.is_terminal else Console(width=WIDE)
+
+
+@contextmanager
+def progress(what: str, total: int) -> Iterator[Callable[[object], None]]:
+    """A bar on the standard error, where that is a terminal; yields what moves it on by one."""
+    console = Console(stderr=True)
+    bar = Progress(
+        TextColumn(what),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TimeRemainingColumn(),
+        console=console,
+        transient=True,
+        disable=not console.is_terminal,
+    )
+    task = bar.add_task(what, total=total)
+    with bar:
+        yield lambda _: bar.advance(task)
