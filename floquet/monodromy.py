@@ -18,7 +18,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floquet.ode import Parameters, shape, values
-from floquet.propagate import Cvodes, Propagator, Taylor, rate
+from floquet.propagate import Cvodes, Propagator, Taylor, terms
+from floquet.steps import perron, rate
 from hill import HillEquation
 
 Complex = NDArray[np.complexfloating[Any]]
@@ -34,7 +35,7 @@ WELL = 100.0
 
 # Each method and the one it is checked by: other steps, another tolerance.
 METHODS: dict[str, tuple[Propagator, Propagator]] = {
-    "taylor": (Taylor(), Taylor(order=27, reach=1.7)),
+    "taylor": (Taylor(), Taylor(order=29)),
     "cvodes": (Cvodes(1e-14), Cvodes(1e-13)),
 }
 
@@ -127,14 +128,14 @@ def monodromy(
     undamped = values(equation, undamped=True)
     U = _finite(run(undamped, size, 0.5 * period))
     Phi_u, scale = second_half(U)
-    half = _perron(scale) < WELL
+    half = bool(perron(scale) < WELL)
     if not half:
         Phi_u = _finite(run(undamped, size, period))
         scale = np.abs(Phi_u)
     polynomial, sensitivity = characteristic_polynomial(Phi_u[:n, :n], scale[:n, :n])
     checked, _ = characteristic_polynomial(_undamp(whole, eta, period)[:n, :n], scale[:n, :n])
     error = SAFETY * float(np.max(np.abs(polynomial - checked)))
-    error += EPS * (8.0 + rate(undamped, size) * period) * sensitivity
+    error += EPS * (8.0 + rate(terms(undamped, size), undamped.C) * period) * sensitivity
 
     z, radius = _eigenvalues(Phi_u[:n, :n], error)
     root = np.sqrt(z - 1.0) * np.sqrt(z + 1.0)
@@ -165,11 +166,6 @@ def second_half(U: Float) -> tuple[Float, Float]:
     return (S[:, None] * inverse * S) @ U, np.abs(inverse) @ np.abs(U)
 
 
-def _perron(matrix: Float) -> float:
-    """Largest eigenvalue of a matrix without negative elements, whatever the coordinates' units."""
-    return float(np.max(np.abs(np.linalg.eigvals(matrix))))
-
-
 def characteristic_polynomial(A: Float, scale: Float) -> tuple[Float, float]:
     """Monic det(zI - A), and how much the largest coefficient moves per unit of |dA| <= scale.
 
@@ -192,7 +188,7 @@ def _general(equation: HillEquation, run: Propagator, checked: Float, method: st
     polynomial, sensitivity = characteristic_polynomial(Phi, np.abs(Phi))
     other, _ = characteristic_polynomial(checked, np.abs(Phi))
     error = SAFETY * float(np.max(np.abs(polynomial - other)))
-    error += EPS * (8.0 + rate(p, size) * period) * sensitivity
+    error += EPS * (8.0 + rate(terms(p, size), p.C) * period) * sensitivity
     mu, radius = _eigenvalues(Phi, error)
     outer = np.abs(mu) + radius
     T = float(2.0 / period * np.log(np.abs(mu).max()))

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floquet.ode import Parameters, Shape, acceleration, symbols
+from floquet.steps import Term, longest_step
 
 Float = NDArray[np.floating[Any]]
 
@@ -30,17 +31,10 @@ class Propagator(Protocol):
         ...
 
 
-def rate(p: Parameters, size: Shape) -> float:
-    """A bound on how fast anything in the equation oscillates or grows, over ``omega_1``.
-
-    The Perron root of the moduli bounds the stiffness in whatever units each coordinate has.
-    """
-    stiffness = np.abs(p.F) + abs(p.gamma) * np.abs(p.G)
-    for s in range(size.terms):
-        stiffness = stiffness + np.abs(p.H[:, s * size.n : (s + 1) * size.n])
-    forcing = max(p.Omega, size.terms * p.omega_L)
-    damping = np.max(np.abs(np.linalg.eigvals(np.abs(p.C))))
-    return float(np.sqrt(np.max(np.abs(np.linalg.eigvals(stiffness)))) + forcing + damping)
+def terms(p: Parameters, size: Shape) -> list[Term]:
+    """Stiffness matrices with the frequencies of their cosines."""
+    free = [(p.H[:, s * size.n : (s + 1) * size.n], (s + 1) * p.omega_L) for s in range(size.terms)]
+    return [(p.F, 0.0), (p.gamma * p.G, p.Omega), *free]
 
 
 @dataclass(frozen=True)
@@ -51,24 +45,26 @@ class Taylor:
     ----------
     order : int
         Highest power of the step kept.
-    reach : float
-        Largest step times `rate`. With order 24 and 2.2 the first term left out is
-        2.2**25/25! = 2e-17, below an ulp.
+    tolerance : float
+        What a step may leave out, of the solution's size; the default is below an ulp.
     """
 
     order: int = 24
-    reach: float = 2.2
+    tolerance: float = 1e-17
 
     def __call__(self, p: Parameters, size: Shape, time: float) -> Float:
         """Fundamental matrix at `time`."""
-        needed = ceil(rate(p, size) * time / self.reach)
+        needed = ceil(time / longest_step(terms(p, size), p.C, self.order, self.tolerance))
         if needed > MOST_STEPS:
             raise ValueError(
                 f"Omega = {p.Omega:g}: too small, one period needs {needed:,} Taylor steps "
                 f"(at most {MOST_STEPS:,})"
             )
         steps = _bucket(min(needed, FOLDED))
-        folds = ceil(needed / steps)
+        return self.march(p, size, time, steps, ceil(needed / steps))
+
+    def march(self, p: Parameters, size: Shape, time: float, steps: int, folds: int = 1) -> Float:
+        """The same with a given number of steps, `folds` times as many as one fold has."""
         h = time / (folds * steps)
         fold = _folded(size, self.order, steps)
         wide = [np.tile(value, (1, steps)) for value in p]

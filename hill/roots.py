@@ -1,0 +1,114 @@
+"""z, R and T of many polynomials at once, in closed form up to the third degree."""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Float = NDArray[np.floating[Any]]
+Complex = NDArray[np.complexfloating[Any, Any]]
+
+CHUNK = 8192
+"""Polynomials at a time: the dozen arrays of the closed form stay in the cache."""
+
+
+def growth(polynomials: Float) -> Float:
+    """Largest ln R of each polynomial, Eq. (7.1.2).
+
+    Parameters
+    ----------
+    polynomials : (n + 1, k) float ndarray
+        Monic coefficients, highest power first, one column a polynomial.
+
+    Returns
+    -------
+    (k,) float ndarray
+        ln R >= 0; T is (Omega/pi) ln R - eta.
+    """
+    count = polynomials.shape[1]
+    result = np.empty(count)
+    for start in range(0, count, CHUNK):
+        part = slice(start, start + CHUNK)
+        result[part] = _growth(polynomials[:, part])
+    return result
+
+
+def _growth(p: Float) -> Float:
+    degree = len(p) - 1
+    if degree == 1:
+        return _real(-p[1])
+    if degree == 2:
+        return _pair(p[1], p[2])
+    if degree == 3:
+        lone = most_isolated_root(p[1], p[2], p[3])
+        return np.maximum(_real(lone), _pair(p[1] + lone, p[2] + lone * (p[1] + lone)))
+    z = values(p)
+    return _general(z).max(axis=0)
+
+
+def values(polynomials: Float) -> Complex:
+    """All roots, (n, k): eigenvalues of companion matrices, one batch."""
+    n, count = len(polynomials) - 1, polynomials.shape[1]
+    companion = np.zeros((count, n, n))
+    companion[:, np.arange(1, n), np.arange(n - 1)] = 1.0
+    companion[:, 0, :] = -polynomials[1:].T
+    return np.asarray(np.linalg.eigvals(companion).astype(complex).T)
+
+
+def most_isolated_root(a: Float, b: Float, c: Float) -> Float:
+    """The real root of z^3 + a z^2 + b z + c that is farthest from the other two.
+
+    With z = t - a/3 the roots t sum to zero: where all are real, the one of largest modulus lies
+    opposite the other two; where two are complex, it is the real one. The rest divides out well.
+    """
+    third = a / 3.0
+    p = b - a * third
+    q = c + third * (2.0 * third * third - b)
+    half = 0.5 * np.abs(q)
+    cube = (p / 3.0) ** 3
+    square = half * half + cube
+    with np.errstate(invalid="ignore", divide="ignore"):
+        radius = np.sqrt(np.maximum(-p / 3.0, 0.0))
+        angle = np.arccos(np.clip(half / np.sqrt(np.maximum(-cube, 1e-300)), -1.0, 1.0))
+        three = 2.0 * radius * np.cos(angle / 3.0)
+        u = np.cbrt(half + np.sqrt(np.maximum(square, 0.0)))
+        one = u - p / (3.0 * np.where(u == 0.0, 1.0, u))
+    t = -np.copysign(np.where(square > 0.0, one, three), q)
+    z = t - third
+    for _ in range(2):  # Newton: the closed form loses digits where its terms cancel
+        slope = (3.0 * z + 2.0 * a) * z + b
+        value = ((z + a) * z + b) * z + c
+        z = z - np.divide(value, slope, out=np.zeros_like(z), where=slope != 0.0)
+    return z
+
+
+def _real(z: Float) -> Float:
+    """Ln R of a real z: arccosh |z| outside [-1, 1], else 0."""
+    above = np.maximum(np.abs(z) - 1.0, 0.0)
+    return np.log1p(above + np.sqrt(above * (above + 2.0)))
+
+
+def _pair(b: Float, c: Float) -> Float:
+    """Largest ln R of the two roots of z^2 + b z + c, real or conjugate."""
+    x = -0.5 * b
+    square = x * x - c
+    root = np.sqrt(np.abs(square))
+    real = _real(np.abs(x) + root)
+    return np.where(square >= 0.0, real, _conjugate(x, root))
+
+
+def _conjugate(x: Float, y: Float) -> Float:
+    """Ln R of x +- i y: ln R is arccosh of the major half-axis of the ellipse through z.
+
+    (|z + 1| + |z - 1|)/2 - 1, written without cancellation.
+    """
+    plus, minus = np.abs(x + 1.0), np.abs(1.0 - x)
+    far, near = np.hypot(plus, y), np.hypot(minus, y)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        lift = np.where(y == 0.0, 0.0, y * y * (1.0 / (far + plus) + 1.0 / (near + minus)))
+    above = 0.5 * (lift + (plus + minus - 2.0))
+    return np.log1p(above + np.sqrt(above * (above + 2.0)))
+
+
+def _general(z: Complex) -> Float:
+    return _conjugate(z.real, np.abs(z.imag))
