@@ -165,4 +165,9 @@ def corrected(row: Row) -> Row:
     for field, text in cells.items():
         if field.startswith("z"):
             z[2 * int(field[1]) - 2 + field.endswith("im")] = text
-    return replace(row, z_printed=tuple(z), Omega_printed=cells.get("Omega", row.Omega_printed))
+    return replace(
+        row,
+        z_printed=tuple(z),
+        Omega_printed=cells.get("Omega", row.Omega_printed),
+        T_printed=cells.get("T", row.T_printed),
+    )
