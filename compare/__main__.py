@@ -6,7 +6,7 @@ import sys
 from collections.abc import Sequence
 from importlib import import_module
 
-COMMANDS: tuple[str, ...] = ()
+COMMANDS: tuple[str, ...] = ("listing",)
 """Subcommands, each a module of `compare.commands` with SUMMARY, EPILOG, configure and run."""
 
 

@@ -5,7 +5,9 @@ from chapters 4 to 6 is marked SLIP. Arithmetic is double, not the 7094's 27 bit
 come back to a unit or so in the last place wherever they are not themselves sensitive.
 """
 
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -18,6 +20,9 @@ RIGID = 50.0
 """OMEGL beyond which the stepped program drops compliance (appendix B-4)."""
 
 MOST_HARMONICS = 14
+
+MOST_STEPS = 100
+"""Steps one way before the search for a boundary is given up: the report's runs take five."""
 
 
 @dataclass(frozen=True)
@@ -79,12 +84,17 @@ class Stab:
     OMEGB: float
     roots: Complex
     STAB1: float
-    doubtful: bool
+    doubtful: int
+    """How many of its determinants wanted more harmonics than there is room for."""
 
     @property
     def unstable(self) -> bool:
         """ITS = 2."""
         return self.STAB1 > 1e-7
+
+
+class NoBoundary(ValueError):
+    """SWITCH has found nothing stable on one side."""
 
 
 def stab(deck: Uniform | Stepped, case: Case, OMEGB: float) -> Stab:
@@ -108,40 +118,58 @@ def stab(deck: Uniform | Stepped, case: Case, OMEGB: float) -> Stab:
     root = np.sqrt(z * z - 1.0)
     R = np.maximum(np.abs(z + root), np.abs(z - root)).max()
     STAB1 = float(np.log(R) * OMEGB / deck.PI - case.ETA)
-    return Stab(OMEGB, z, STAB1, bool(np.any(M > MOST_HARMONICS)))
+    return Stab(OMEGB, z, STAB1, int(np.sum(M > MOST_HARMONICS)))
 
 
 def switch(
     deck: Uniform | Stepped, case: Case, OMEGB: float, *, first_T: float | None = None
 ) -> list[Stab]:
+    """SUBROUTINE SWITCH around one resonance, with what STAB finds; see `search`."""
+    return list(search(partial(stab, deck, case), OMEGB, case.ETA, first_T=first_T))
+
+
+def search(
+    evaluate: Callable[[float], Stab], OMEGB: float, ETA: float, *, first_T: float | None = None
+) -> Iterator[Stab]:
     """SUBROUTINE SWITCH: from a resonance outward until the boundary is bracketed, both ways.
 
     Steps of 1.2 T (.04 where that exceeds .10), T from the resonance or `first_T`, as long as it is
     unstable, then back by halves and quarters. Its further search by .002, for steps of .10 and
     more, can never be reached.
+
+    Raises
+    ------
+    NoBoundary
+        All unstable down to OMEGB = 0, or over `MOST_STEPS`: the listing would go on for ever.
     """
-    first = stab(deck, case, OMEGB)
-    visited = [first]
+    first = evaluate(OMEGB)
+    yield first
     if not first.unstable:
-        return visited
-    step = 1.2 * ((first.STAB1 if first_T is None else first_T) + case.ETA)
+        return
+    step = 1.2 * ((first.STAB1 if first_T is None else first_T) + ETA)
     step = 0.04 if step > 0.10 else step
     for away in (-step, step):
-        at, inside, outside = OMEGB + away, 0, 0
+        at, inside, outside, steps = OMEGB + away, 0, 0, 0
         while True:
-            visited.append(stab(deck, case, at))
-            if visited[-1].unstable and not outside:
+            steps += 1
+            if at <= 0.0 or steps > MOST_STEPS:
+                raise NoBoundary(
+                    f"SWITCH finds no boundary of the instability at OMEGB = {OMEGB:.3f}, "
+                    f"as far as {at - away:.3f} by steps of {abs(away):.2g}"
+                )
+            found = evaluate(at)
+            yield found
+            if found.unstable and not outside:
                 at += away
                 continue
-            inside += visited[-1].unstable
-            outside += not visited[-1].unstable
+            inside += found.unstable
+            outside += not found.unstable
             if outside == 3 or inside == 2 or (outside == 2 and inside == 1):
                 break
-            if visited[-1].unstable:
+            if found.unstable:
                 at += away / 4.0
             else:
                 at -= away / 2.0 if outside == 1 else away / 4.0
-    return visited
 
 
 def _deter(F: Float, G: Float, H: Float, case: Case, OMEGB: float, j: int, M: int) -> float:
