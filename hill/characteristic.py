@@ -26,8 +26,8 @@ Float = NDArray[np.floating[Any]]
 # Finite sizes M, 1.25 M, 1.5 M; the remainder is a series in 1/M that starts at the fifth power.
 LEVELS = (1.0, 1.25, 1.5)
 POWERS = (5, 6)
-# Largest ratio of true error to measured defect seen over 2,000 random systems; see
-# tests/test_honesty.py, which fails if the product is ever too small.
+# Over 2,772 random systems, held against 600-bit arithmetic, the true error was 2.3 times the
+# measured defect at most; tests/test_honesty.py fails if the product is ever too small.
 SAFETY = 4.0
 # Each of the 2 pi w radians of z's argument is known to an ulp.
 EPS = float(np.finfo(float).eps)
@@ -98,7 +98,10 @@ def characteristic(
     Sections 6.2 and 6.3 of the report; Whittaker and Watson, A Course of Modern Analysis, 19.42.
     """
     system = determinant.blocks(equation)
-    converged, error, levels = _converged(system)
+    try:
+        converged, error, levels = _converged(system)
+    except ValueError as refused:
+        raise ValueError(f"Omega = {equation.Omega:g}: {refused}") from None
     if truncation == "converged":
         return _result(equation, converged, error, levels, "converged")
     if truncation == "report":
@@ -176,6 +179,5 @@ def _sampled(system: Blocks, M: int) -> Float:
     """P(z) of the finite determinant (6.2.8) itself, at points without poles."""
     _, alpha = _circle(system.n)
     diagonal = np.diag(system.Fbar).astype(complex)
-    wide = max(M, 2)
-    values = determinant.determinants(system, alpha, wide, diagonal)
+    values = determinant.determinants(system, alpha, M, diagonal)
     return np.append(1.0, _coefficients(values)[: system.n][::-1])

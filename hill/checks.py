@@ -15,9 +15,13 @@ def number(name: str, value: Any) -> float:
         value = value.item()
     if isinstance(value, (bool, np.bool_)) or not isinstance(value, Real):
         raise ValueError(f"{name} = {value!r}: must be a real number")
-    if not math.isfinite(value):
-        raise ValueError(f"{name} = {value}: must be finite")
-    return float(value)
+    try:
+        checked = float(value)
+    except OverflowError:
+        raise ValueError(f"{name}: is too large for a float") from None
+    if not math.isfinite(checked):
+        raise ValueError(f"{name} = {checked}: must be finite")
+    return checked
 
 
 def positive(name: str, value: Any, *, or_infinite: bool = False) -> float:

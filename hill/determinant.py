@@ -127,8 +127,8 @@ def least_truncation(system: Blocks) -> int:
     M = int(2.0 * system.highest + 16.0 * np.sqrt(strength)) + 2 * system.reach + 30
     if M > MOST:
         raise ValueError(
-            f"Omega: too small for the determinant, which needs {M} harmonics of it (at most "
-            f"{MOST}); the highest frequency is {system.highest:.3g} Omega"
+            f"too small for the determinant, which needs {M} harmonics of it (at most {MOST}): "
+            f"the highest frequency is {system.highest:.3g} Omega"
         )
     return M
 
@@ -182,10 +182,16 @@ def log_block_tail(squares: Complex, alpha: Complex, M: int) -> Complex:
     """Log of prod_(m>M) [(m+alpha)^2 - w^2][(m-alpha)^2 - w^2]/m^4, summed over the w.
 
     The bracket factors into 1 - x^2/m^2 with x = w + alpha and w - alpha; its logarithm is a
-    series in x^2 whose sums over m are Hurwitz zeta functions.
+    series in x^2 whose sums over m are Hurwitz zeta functions. Where M is below the frequencies, as
+    a finite determinant's may be, the first factors are multiplied out.
     """
     w = np.sqrt(squares)
     x2 = np.concatenate([np.add.outer(w, alpha), np.subtract.outer(w, alpha)]) ** 2
+    enough = int(2.0 * np.max(np.sqrt(np.abs(x2)))) + 1
+    if enough > M:
+        m = np.arange(M + 1, enough + 1)
+        first = np.sum(np.log(1.0 - x2[..., None] / m**2), axis=(0, -1))
+        return np.asarray(first + log_block_tail(squares, alpha, enough))
     k = np.arange(1, SERIES + 1)
     terms = (x2[..., None] / M**2) ** k * (zeta(2 * k, M + 1) * float(M) ** (2 * k) / k)
     return np.asarray(-np.sum(terms, axis=(0, -1)))

@@ -13,6 +13,9 @@ from hill import checks
 # omega_L and Omega are each rounded once and so is their quotient: three half-ulps, doubled.
 COMMENSURATE_ULPS = 3
 
+# Omega is squared and divided by.
+SQUARABLE = (1e-100, 1e100)
+
 
 @dataclass(frozen=True, eq=False)
 class HillEquation:
@@ -67,13 +70,17 @@ class HillEquation:
     ) -> None:
         checked = checks.square("F", F)
         n = len(checked)
+        try:
+            one_number = np.ndim(eta) == 0
+        except ValueError:
+            raise ValueError(f"eta = {eta!r}: must be a number or an ({n}, {n}) matrix") from None
         checks.store(
             self,
             F=checked,
             G=checks.square("G", G, n=n),
             gamma=checks.number("gamma", gamma),
-            Omega=checks.positive("Omega", Omega),
-            eta=checks.number("eta", eta) if np.ndim(eta) == 0 else checks.square("eta", eta, n=n),
+            Omega=checks.between("Omega", checks.positive("Omega", Omega), *SQUARABLE),
+            eta=checks.number("eta", eta) if one_number else checks.square("eta", eta, n=n),
             H=checks.matrices("H", H, n=n),
             omega_L=checks.positive("omega_L", omega_L, or_infinite=True),
         )

@@ -22,7 +22,8 @@ def eigenvalue(n: int) -> float:
     """lambda_n: the n-th positive root of cosh(lambda) cos(lambda) = 1 (reference 7)."""
     x = (n + 0.5) * np.pi
     for _ in range(4):  # Newton doubles the digits; lambda_1 starts with two, the others with more
-        x -= (np.cos(x) - 1.0 / np.cosh(x)) / (-np.sin(x) + np.tanh(x) / np.cosh(x))
+        sech = 2.0 * np.exp(-x) / (1.0 + np.exp(-2.0 * x))
+        x -= (np.cos(x) - sech) / (-np.sin(x) + np.tanh(x) * sech)
     return float(x)
 
 

@@ -13,10 +13,9 @@ EPS = float(np.finfo(float).eps)
 
 @dataclass(frozen=True, eq=False)
 class Stability:
-    """Roots z of P, discs that hold the true ones, T and its error."""
+    """Roots z of P, T and its error."""
 
     z: Complex
-    radius: Float
     T: float
     T_error: float
 
@@ -30,11 +29,12 @@ def stability(polynomial: Float, error: float, Omega: float, eta: float) -> Stab
     """Roots of P and the characteristic argument T = (Omega/pi) ln R - eta, Eq. (7.1.1)."""
     z = np.roots(polynomial).astype(complex)
     z = z[np.lexsort((z.imag, -z.real))]
-    radius = root_radius(polynomial, error, z)
     T = float(Omega / np.pi * np.log(modulus(z)).max() - eta)
-    low, high = argument_between(z, radius, Omega, eta)
+    discs, equal = root_discs(polynomial, error, z)
+    ends = [argument_between(z, radius, Omega, eta) for radius in (discs, equal)]
+    low, high = max(end[0] for end in ends), min(end[1] for end in ends)
     rounding = 4.0 * EPS * (Omega / np.pi + abs(eta))
-    return Stability(z=z, radius=radius, T=T, T_error=max(high - T, T - low) + rounding)
+    return Stability(z=z, T=T, T_error=max(high - T, T - low) + rounding)
 
 
 def argument_between(
@@ -59,18 +59,24 @@ def modulus(z: Complex) -> Float:
     return np.maximum(np.abs(z + root), np.abs(z - root))
 
 
-def root_radius(polynomial: Float, error: float, z: Complex) -> Float:
-    """Radii of discs about the computed roots whose union holds every true root.
+def root_discs(polynomial: Float, error: float, z: Complex) -> tuple[Float, float]:
+    """Two sets of discs about the computed roots, each of which holds every true root.
 
     Smith's theorem (1970): a monic p of degree n has its roots in the discs
-    |z - z_j| <= n |p(z_j)| / prod_(k != j) |z_j - z_k|. For a cluster the plain bound by the
-    n-th root of |p(z_j)| is smaller and is used instead.
+    |z - z_j| <= n |p(z_j)| / prod_(k != j) |z_j - z_k|. In a cluster these are large; there equal
+    discs are better: at a true root prod_j |z - z_j| is no more than the computed polynomial's
+    error, so the nearest z_j is within its n-th root.
     """
     n = len(z)
-    powers = np.abs(z)[:, None] ** np.arange(n)
-    residual = np.abs(np.polyval(polynomial, z)) + (error + 2 * n * EPS) * powers.sum(axis=1)
+    slack = error + 2 * n * EPS * float(np.max(np.abs(polynomial)))
+    size = np.sum(np.abs(z)[:, None] ** np.arange(n), axis=1)
+    residual = np.abs(np.polyval(polynomial, z)) + slack * size
     gaps = np.abs(z[:, None] - z[None, :]) + np.eye(n)
     with np.errstate(divide="ignore"):
         smith = n * residual / gaps.prod(axis=1)
-    radius: Float = np.minimum(smith, residual ** (1.0 / n))
-    return radius
+    # np.roots is backward stable: its z are the exact roots of a polynomial within this of p
+    backward = slack + n * EPS * float(np.max(np.abs(polynomial)))
+    farthest = float(np.max(np.abs(z))) + 1.0
+    equal = (backward * np.sum(farthest ** np.arange(n))) ** (1.0 / n)
+    # a disc that only touches [-1, 1] must not be lost to rounding
+    return smith * (1.0 + 1e-9), equal * (1.0 + 1e-9)
