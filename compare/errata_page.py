@@ -13,10 +13,12 @@ from scipy.optimize import linear_sum_assignment
 
 from compare.errata import Erratum, errata
 from compare.match import distance
+from compare.output import check_writable, write_whole
 from compare.row import Outcome, check
 from compare.tables import all_rows, corrected
 
-PAGE = Path(__file__).parent.parent / "docs" / "errata.md"
+PAGE = Path("docs/errata.md")
+"""From the root of a clone."""
 
 # ITS of the listing, and far above the rounding of T.
 STABLE = 1e-7
@@ -229,8 +231,9 @@ def _power(value: float, digits: int = 0) -> str:
 
 def main() -> None:
     """Write the page."""
-    PAGE.write_text(page(), encoding="utf-8")
-    print(f"written: {PAGE.relative_to(PAGE.parent.parent)}")
+    check_writable(PAGE)
+    write_whole(PAGE, page())
+    print(f"written: {PAGE}")
 
 
 if __name__ == "__main__":

@@ -22,7 +22,7 @@ def outcomes() -> tuple[Outcome, ...]:
 def test_page_is_up_to_date(outcomes: tuple[Outcome, ...]) -> None:
     """If not: python -m compare.errata_page."""
     assert errata_page.page(outcomes) == PAGE.read_text(encoding="utf-8")
-    assert errata_page.PAGE.resolve() == PAGE.resolve()
+    assert errata_page.PAGE.parts == PAGE.parts[-2:]
 
 
 def test_page_computes_what_it_is_not_given(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,0 +1,138 @@
+"""``verify claims``: the report's conclusions, each with its numbers and a verdict."""
+
+import argparse
+import io
+import sys
+from collections.abc import Iterable
+from pathlib import Path
+
+from rich import box
+from rich.console import Console
+from rich.padding import Padding
+from rich.table import Table
+from rich.text import Text
+
+from compare.claims import page
+from compare.claims.finding import VERDICTS
+from compare.claims.routes import RoutesDisagree
+from compare.claims.run import Judged, judge, select
+from compare.commands.terminal import progress, terminal
+from compare.output import check_writable, write_whole
+
+STYLES = {"confirmed": "green", "qualified": "yellow", "refuted": "red"}
+SUMMARY = "go through the report's conclusions, each with numbers by both routes and a verdict"
+EPILOG = """\
+examples:
+  verify claims                       every conclusion, one line each
+  verify claims gap half-circles      these two, with their numbers and the rule of the verdict
+  verify claims --verdict refuted     only those that do not hold
+  verify claims --format md           all numbers, as in docs/claims.md
+
+verdicts, which follow from the numbers by a rule stated with each claim:
+  confirmed   it holds
+  qualified   it holds with a restriction that the report does not make
+  refuted     it does not hold
+
+exit status: 0 the routes agree on every number and every verdict is the one on record; 1 they do
+not; 2 wrong usage or input."""
+
+
+def configure(p: argparse.ArgumentParser) -> None:
+    """Options of the command."""
+    p.add_argument("claim", nargs="*", metavar="ID", help="a claim such as half-circles")
+    p.add_argument("--verdict", choices=VERDICTS, help="list only claims with this verdict")
+    p.add_argument(
+        "--format",
+        choices=page.FORMATS,
+        help="text, or what the output's suffix says (.json, .md)",
+    )
+    p.add_argument(
+        "--output", type=Path, metavar="FILE", help="write there instead of the terminal"
+    )
+
+
+def run(options: argparse.Namespace) -> int:
+    """Run it; return the exit status."""
+    chosen = select(options.claim)
+    if options.output is not None:
+        check_writable(options.output)
+    try:
+        with progress("claims", len(chosen)) as advance:
+            judged = judge([claim.id for claim in chosen], progress=advance)
+    except RoutesDisagree as error:
+        print(f"verify claims: {error}", file=sys.stderr)
+        return 1
+    content = _content(judged, options)
+    if content is None:
+        print_text(_shown(judged, options), judged, details=bool(options.claim), console=terminal())
+    elif options.output is None:
+        sys.stdout.write(content)
+        sys.stdout.flush()
+    else:
+        write_whole(options.output, content)
+    return 0 if all(one.as_expected for one in judged) else 1
+
+
+def _shown(judged: tuple[Judged, ...], options: argparse.Namespace) -> tuple[Judged, ...]:
+    wanted = options.verdict
+    return tuple(one for one in judged if wanted in (None, one.finding.verdict))
+
+
+def _content(judged: tuple[Judged, ...], options: argparse.Namespace) -> str | None:
+    """What to write; None for text on the terminal."""
+    kind = options.format
+    if kind is None:
+        suffix = options.output.suffix.lstrip(".") if options.output else "text"
+        kind = suffix if suffix in page.FORMATS else "text"
+    shown = _shown(judged, options)
+    if kind == "json":
+        return page.as_json(shown, judged)
+    if kind == "md":
+        return page.markdown(shown)
+    if options.output is None:
+        return None
+    buffer = io.StringIO()
+    console = Console(file=buffer, width=100)
+    print_text(shown, judged, details=bool(options.claim), console=console)
+    return buffer.getvalue()
+
+
+def print_text(
+    shown: Iterable[Judged], judged: Iterable[Judged], *, details: bool, console: Console
+) -> None:
+    """Print a table, with the numbers of each claim if asked, and the two lines."""
+    listed = tuple(shown)
+    table = Table(box=box.SIMPLE_HEAD, pad_edge=False, show_edge=False, padding=(0, 1, 0, 0))
+    table.add_column("claim", no_wrap=True)
+    table.add_column("section")
+    table.add_column("verdict", no_wrap=True)
+    table.add_column("what it says")
+    for one in listed:
+        table.add_row(one.claim.id, one.claim.section, _verdict(one), one.claim.title)
+    if table.row_count:
+        console.print(table)
+        console.print()
+    for one in listed if details else ():
+        _details(one, console)
+    for line in page.summary(judged):
+        console.print(line, style="bold", soft_wrap=True)
+
+
+def _verdict(one: Judged) -> Text:
+    mark = "" if one.as_expected else "!"
+    return Text(one.finding.verdict + mark, style=STYLES[one.finding.verdict])
+
+
+def _details(one: Judged, console: Console) -> None:
+    console.print(Text(one.claim.id, style="bold"), _verdict(one))
+    console.print(Padding(Text(one.claim.claim, style="italic"), (0, 2)))
+    console.print(Padding(Text(one.finding.because), (0, 2)))
+    console.print(Padding(Text(f"Rule: {one.claim.rule}", style="dim"), (0, 2)))
+    table = Table(box=box.SIMPLE_HEAD, pad_edge=False, show_edge=False, padding=(0, 1, 0, 0))
+    table.add_column("number")
+    for route in ("Hill", "Floquet"):
+        table.add_column(route, justify="right", no_wrap=True)
+    for number in one.finding.numbers:
+        table.add_row(number.label, *number.texts)
+    console.print(Padding(table, (0, 2)))
+    console.print()
