@@ -1,0 +1,143 @@
+"""A chart's parameters: which there are, how one varies, and the equation at a point."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from floquet.galerkin import galerkin
+from hill import HillEquation, SteppedBeam, UniformBeam, checks
+
+Float = NDArray[np.floating[Any]]
+Beam = UniformBeam | SteppedBeam
+
+FORCING = ("Omega", "gamma", "eta")
+WHOLE = ("modes",)
+MARGIN = 1.1
+
+
+@dataclass(frozen=True)
+class Axis:
+    """One varied parameter: `count` points from `low` to `high`.
+
+    Raises
+    ------
+    ValueError
+        `low` not below `high`, or fewer than 2 points.
+    """
+
+    name: str
+    low: float
+    high: float
+    count: int
+
+    def __post_init__(self) -> None:
+        low = checks.number(f"{self.name} from", self.low)
+        high = checks.number(f"{self.name} to", self.high)
+        checks.count(f"points of {self.name}", self.count, least=2)
+        if not low < high:
+            raise ValueError(f"{self.name} from {low:g} to {high:g}: must ascend")
+        if self.name == "Omega" and low <= 0.0:
+            raise ValueError(f"Omega from {low:g}: must be greater than 0")
+
+    @property
+    def points(self) -> Float:
+        """Where the chart is evaluated."""
+        return np.linspace(self.low, self.high, self.count)
+
+    def to_smooth(self, value: Float) -> Float:
+        """The variable in which P(z) is smooth: P depends on Omega through 1/Omega."""
+        return 1.0 / value if self.name == "Omega" else np.asarray(value, float)
+
+    def from_smooth(self, value: Float) -> Float:
+        """Back again."""
+        return self.to_smooth(value)
+
+    @property
+    def span(self) -> tuple[float, float]:
+        """The axis in its smooth variable, ascending; Omega a little wider than it is drawn.
+
+        A boundary is looked for in a window about its resonance, which may reach over the edge.
+        """
+        margin = MARGIN if self.name == "Omega" else 1.0
+        ends = sorted(float(self.to_smooth(np.asarray(v))) for v in self._ends(margin))
+        return ends[0], ends[1]
+
+    def _ends(self, margin: float) -> tuple[float, float]:
+        return self.low / margin, self.high * margin
+
+
+@dataclass(frozen=True)
+class Family:
+    """A beam and its forcing, with some parameters left to vary.
+
+    Attributes
+    ----------
+    beam : UniformBeam or SteppedBeam
+    forcing : mapping
+        Omega, gamma and eta, as far as they are fixed.
+    """
+
+    beam: Beam
+    forcing: Mapping[str, float] = field(default_factory=dict)
+
+    def check(self, axes: tuple[Axis, ...]) -> None:
+        """Refuse parameters that the beam does not have, twice or not at all."""
+        names = [axis.name for axis in axes]
+        known = [f.name for f in fields(self.beam) if f.name not in WHOLE] + list(FORCING)
+        for name in names:
+            if name not in known:
+                raise ValueError(f"axis = {name!r}: must be one of {', '.join(known)}")
+            if names.count(name) > 1:
+                raise ValueError(f"axis = {name!r}: is there twice")
+        for name in self.forcing:
+            if name not in FORCING:
+                raise ValueError(f"{name}: must be one of {', '.join(FORCING)}")
+        missing = {"Omega", "gamma"} - set(names) - set(self.forcing)
+        if missing:
+            raise ValueError(f"{min(missing)}: has no value; fix it, or make it an axis")
+        # the corners find what the ranges would run into later
+        for end in ("low", "high"):
+            self.at({axis.name: getattr(axis, end) for axis in axes})
+
+    def at(self, varied: Mapping[str, float]) -> tuple[Beam, dict[str, float]]:
+        """The beam and the forcing at a point."""
+        forcing = {"eta": 0.0} | dict(self.forcing)
+        forcing |= {name: float(varied[name]) for name in FORCING if name in varied}
+        own = {name: float(value) for name, value in varied.items() if name not in FORCING}
+        return (replace(self.beam, **own) if own else self.beam), forcing  # type: ignore[arg-type]
+
+    def equations(self, points: Mapping[str, Float], *, closed_form: bool) -> list[HillEquation]:
+        """The equations at many points, their matrices made once where they are the same.
+
+        Parameters
+        ----------
+        points : mapping of str to (k,) ndarray
+        closed_form : bool
+            Matrices from the report's formulas, or by quadrature of the weak form.
+        """
+        made: dict[Any, HillEquation] = {}
+        found = []
+        for values in zip(*points.values(), strict=True):
+            beam, forcing = self.at(dict(zip(points, map(float, values), strict=True)))
+            # without compliance F and G do not know Omega
+            rigid = np.isinf(beam.omega_L)
+            key = (beam, None if rigid else forcing["Omega"])
+            if key not in made:
+                source = beam.equation if closed_form else _quadrature(beam)
+                made[key] = source(forcing["Omega"], forcing["gamma"], forcing["eta"])
+            model = made[key]
+            found.append(with_forcing(model, forcing))
+        return found
+
+
+def with_forcing(model: HillEquation, forcing: Mapping[str, float]) -> HillEquation:
+    """The matrices of one equation with another's Omega, gamma and eta."""
+    Omega, gamma, eta = (forcing[name] for name in FORCING)
+    return HillEquation(F=model.F, G=model.G, gamma=gamma, Omega=Omega, eta=eta)
+
+
+def _quadrature(beam: Beam) -> Any:
+    return lambda Omega, gamma, eta: galerkin(beam, Omega, gamma, eta)

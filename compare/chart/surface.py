@@ -1,0 +1,171 @@
+"""P(z) over a rectangle of parameters, from its values at Chebyshev points.
+
+The coefficients of P are analytic in the smooth variables, so a tensor series in them converges
+geometrically. A rectangle whose series has not decayed at its allowed size is cut in two; one that
+is too small to cut again (a pole of the axial force runs through it) is left to direct evaluation.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from compare.chart import chebyshev
+
+Float = NDArray[np.floating[Any]]
+
+Sampler = Callable[[Float], tuple[Float, Float]]
+"""Smooth coordinates (k, axes) to coefficients of P (k, n + 1), highest first, and their errors."""
+
+START, MOST = 9, 129
+"""Points an axis at first, and at most before the rectangle is cut; 2^k + 1, so that they nest."""
+
+DEEPEST = 7
+"""Cuts of one axis; a piece is then 1/128 of the chart."""
+
+# Values at random points miss by no more than this many times the last coefficients kept, which
+# bound a geometric series' remainder where its ratio is below 3/4; tests/test_chart.py measures it.
+SAFETY = 4.0
+
+
+@dataclass(frozen=True, eq=False)
+class Piece:
+    """A rectangle with its series; `series` is None where only direct evaluation will do.
+
+    Attributes
+    ----------
+    low, high : (axes,) ndarray
+        Corners, in smooth variables.
+    series : (n, points on each axis) ndarray or None
+        Chebyshev coefficients of the coefficients of P below its leading 1.
+    error : float
+        Bound on the error of a coefficient of P anywhere in the rectangle.
+    """
+
+    low: Float
+    high: Float
+    series: Float | None
+    error: float
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """Pieces that cover the chart, and how many evaluations they took."""
+
+    pieces: tuple[Piece, ...]
+    nodes: int
+
+    @property
+    def error(self) -> float:
+        """Largest bound over the pieces that have a series."""
+        return max((p.error for p in self.pieces if p.series is not None), default=0.0)
+
+
+def fit(
+    sample: Sampler,
+    low: Float,
+    high: Float,
+    tolerance: float,
+    progress: Callable[[int], Any] | None = None,
+) -> Surface:
+    """Cover a rectangle with series whose error is below `tolerance` times the largest |P|.
+
+    Parameters
+    ----------
+    sample : callable
+        Evaluates P at smooth coordinates.
+    low, high : (axes,) ndarray
+        The rectangle.
+    tolerance : float
+        Relative to the largest coefficient of P in the piece.
+    progress : callable, optional
+        Called with the number of new evaluations.
+    """
+    known = _Known(sample, progress)
+    pieces: list[Piece] = []
+    pending = [(np.asarray(low, float), np.asarray(high, float), (0,) * len(low))]
+    while pending:
+        a, b, cuts = pending.pop()
+        piece, worst = _piece(known, a, b, tolerance)
+        if piece is not None:
+            pieces.append(piece)
+        elif cuts[worst] >= DEEPEST:
+            pieces.append(Piece(a, b, None, np.inf))
+        else:
+            middle = 0.5 * (a[worst] + b[worst])
+            deeper = tuple(c + (k == worst) for k, c in enumerate(cuts))
+            left, right = b.copy(), a.copy()
+            left[worst] = right[worst] = middle
+            pending += [(right, b, deeper), (a, left, deeper)]
+    return Surface(tuple(pieces), len(known.values))
+
+
+def _piece(known: "_Known", a: Float, b: Float, tolerance: float) -> tuple[Piece | None, int]:
+    """A series that has decayed, or the axis along which it has not."""
+    axes = len(a)
+    counts = [START] * axes
+    over = tuple(range(1, axes + 1))
+    while True:
+        grid = [_nodes(a[k], b[k], counts[k]) for k in range(axes)]
+        values, errors = known.on(grid)
+        series = chebyshev.coefficients(values, over)
+        if not np.all(np.isfinite(values)):
+            return None, 0
+        size = max(1.0, float(np.max(np.abs(values))))
+        tails = np.array([chebyshev.decay(series, axis) for axis in over])
+        short = tails > tolerance * size / SAFETY
+        if not np.any(short):
+            trimmed = _trim(series, 1e-3 * tolerance * size)
+            # a series' error is at most the sum over its axes; the nodes' own errors are amplified
+            # by Lebesgue's constant, below (2/pi ln n + 1) an axis
+            lebesgue = float(np.prod([2.0 / np.pi * np.log(n) + 1.0 for n in counts]))
+            left = float(np.sum(np.abs(series))) - float(np.sum(np.abs(trimmed)))
+            error = SAFETY * float(tails.sum()) + max(left, 0.0) + lebesgue * float(errors.max())
+            return Piece(a, b, trimmed, error), 0
+        worst = int(np.argmax(tails * short))
+        if counts[worst] >= MOST:
+            return None, worst
+        counts = [2 * n - 1 if s and n < MOST else n for n, s in zip(counts, short, strict=True)]
+
+
+def _trim(series: Float, small: float) -> Float:
+    """Drop trailing coefficients that do not matter, the same on every row."""
+    for axis in range(1, series.ndim):
+        sizes = np.max(np.abs(series), axis=tuple(k for k in range(series.ndim) if k != axis))
+        kept = len(sizes) - int(np.argmax(sizes[::-1] > small)) if np.any(sizes > small) else 1
+        series = np.take(series, range(kept), axis=axis)
+    return series
+
+
+def _nodes(a: float, b: float, n: int) -> Float:
+    return 0.5 * (a + b) + 0.5 * (b - a) * chebyshev.lobatto(n)
+
+
+class _Known:
+    """Evaluations so far, so that nested points are not computed twice."""
+
+    def __init__(self, sample: Sampler, progress: Callable[[int], Any] | None) -> None:
+        self.sample, self.progress = sample, progress
+        self.values: dict[bytes, tuple[Float, float]] = {}
+
+    def on(self, grid: list[Float]) -> tuple[Float, Float]:
+        """Coefficients of P below the leading one, on a grid: (n, *grid), and their errors."""
+        points = np.stack([m.ravel() for m in np.meshgrid(*grid, indexing="ij")], axis=1)
+        # nested points come out of different formulas: equal to twelve digits is the same point
+        keys = [
+            np.round(point, 12 - int(np.log10(abs(point).max() + 1e-300))).tobytes()
+            for point in points
+        ]
+        new = [i for i, key in enumerate(keys) if key not in self.values]
+        if new:
+            found, errors = self.sample(points[new])
+            for i, value, error in zip(new, found, errors, strict=True):
+                self.values[keys[i]] = (value[1:], float(error))
+            if self.progress is not None:
+                self.progress(len(new))
+        table = np.array([self.values[key][0] for key in keys])
+        bounds = np.array([self.values[key][1] for key in keys])
+        shape = [len(x) for x in grid]
+        return table.T.reshape(-1, *shape), bounds

@@ -1,0 +1,152 @@
+"""What changes sign where a tongue begins, along a line on which P(z) is smooth.
+
+An undamped system is stable while every z is real and within [-1, 1]. It ceases to be where a z
+passes +1 or -1, a zero of P there (type I, near 2 omega_i/k), or where two z meet, a zero of the
+discriminant of P (type II, near (omega_i +- omega_j)/k). The coefficients of P are smooth where z
+and T are not, so a line is sampled once and P interpolated on it.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.polynomial import chebyshev
+from numpy.typing import NDArray
+from scipy.optimize import brentq
+
+from hill.stability import modulus
+
+Complex = NDArray[np.complexfloating[Any]]
+Float = NDArray[np.floating[Any]]
+Function = Callable[[Float], Float]
+
+# An interpolant is kept once its last two coefficients are this share of the largest: P itself is
+# known to about 1e-14.
+TAIL = 1e-12
+DEGREES = (16, 32, 64, 128, 256)
+# Points of the grid on which sign changes are looked for.
+GRID = 241
+
+
+@dataclass(frozen=True, eq=False)
+class Interpolant:
+    """P along a line by Chebyshev polynomials, coefficient by coefficient."""
+
+    lo: float
+    hi: float
+    coefficients: Float
+
+    def __call__(self, s: Float) -> Float:
+        """Coefficients of P at each s, shape (k, n + 1)."""
+        t = (2.0 * np.atleast_1d(s) - self.lo - self.hi) / (self.hi - self.lo)
+        return np.asarray(chebyshev.chebval(t, self.coefficients).T)
+
+
+def interpolate(P: Function, lo: float, hi: float) -> Interpolant:
+    """Sample P on Chebyshev nodes, more of them until the last coefficients vanish.
+
+    Raises
+    ------
+    ValueError
+        `DEGREES` do not suffice: the line is too long, or passes a pole of G.
+    """
+    t, rows = np.empty(0), []
+    for degree in DEGREES:
+        every = np.cos(np.pi * np.arange(degree + 1) / degree)
+        added = every[1::2] if len(t) else every  # the others are of the last round
+        t = np.append(t, added)
+        rows.append(P(0.5 * (lo + hi + (hi - lo) * added)))
+        values = np.vstack(rows)
+        c = chebyshev.chebfit(t, values, degree)
+        if np.abs(c[-2:]).max() <= TAIL * np.abs(c).max():
+            return Interpolant(lo, hi, c)
+    raise ValueError(f"from {lo:g} to {hi:g}: P is not smooth enough to be interpolated")
+
+
+def interpolate_in_Omega(P: Function, lo: float, hi: float) -> Function:
+    """P over lo <= Omega <= hi, interpolated in 1/Omega.
+
+    With a rigid bar P depends on Omega through F/Omega^2 and G/Omega^2: it is entire in 1/Omega.
+    """
+    inner = interpolate(lambda s: P(1.0 / s), 1.0 / hi, 1.0 / lo)
+    return lambda Omega: inner(1.0 / Omega)
+
+
+def roots(P: Float) -> Complex:
+    """Roots of many monic polynomials, (k, n), as eigenvalues of their companion matrices."""
+    n = P.shape[1] - 1
+    companion = np.zeros((len(P), n, n))
+    companion[:, 0] = -P[:, 1:]
+    companion[:, np.arange(1, n), np.arange(n - 1)] = 1.0
+    return np.asarray(np.linalg.eigvals(companion), complex)
+
+
+def growth(P: Float, Omega: Float | float, eta: float = 0.0) -> Float:
+    """T of (7.1.1) for many P at once, shape (k, n + 1)."""
+    return np.asarray(Omega / np.pi * np.log(modulus(roots(P))).max(axis=-1) - eta)
+
+
+def indicator(kind: str, P: Float, Omega: Float, eta: float = 0.0) -> Float:
+    """What is negative within an instability of this kind near its resonance, zero on its edge.
+
+    At T = 0 R = exp(pi eta/Omega): a real z is at +-c, c = cosh(pi eta/Omega), or 1 undamped.
+
+    "+1", "-1": how far the real parts of all z keep within c, or -c. Zero where P(c) is, but unlike
+    it negative also where two z are beyond. "discriminant": of P; with damping, -T of the complex
+    pair of z alone.
+
+    Parameters
+    ----------
+    kind : {"+1", "-1", "discriminant"}
+    P : (k, n + 1) ndarray
+    Omega : (k,) ndarray
+    eta : float, optional
+    """
+    z = roots(P)
+    if kind == "+1":
+        return np.asarray(np.cosh(np.pi * eta / Omega) - z.real.max(axis=1))
+    if kind == "-1":
+        return np.asarray(np.cosh(np.pi * eta / Omega) + z.real.min(axis=1))
+    if eta > 0.0:
+        off_axis = np.where(z.imag != 0.0, z, 0.0)
+        return np.asarray(eta - Omega / np.pi * np.log(modulus(off_axis)).max(axis=1))
+    j, k = np.triu_indices(z.shape[1], 1)
+    return np.asarray(np.prod((z[:, j] - z[:, k]) ** 2, axis=1).real)
+
+
+def deepest(f: Function, lo: float, hi: float) -> tuple[float, float]:
+    """Where f is least in the window, and its value there; by ever finer grids."""
+    centre, value, left, right = lo, np.inf, lo, hi
+    for points in (GRID, 21, 21, 21):
+        x = np.linspace(left, right, points)
+        y = f(x)
+        centre, value = float(x[y.argmin()]), float(y.min())
+        left, right = max(lo, centre - x[1] + x[0]), min(hi, centre + x[1] - x[0])
+    return centre, value
+
+
+def zero(f: Function, lo: float, hi: float) -> float:
+    """The sign change of f between lo and hi."""
+    return float(brentq(lambda x: f(np.array([x]))[0], lo, hi, xtol=1e-13, rtol=1e-14))
+
+
+def crossings(f: Function, x: Float) -> tuple[list[float], list[float]]:
+    """Where f falls below zero, and where it rises above it, between the points of a grid."""
+    inside = f(x) < 0.0
+    falls = np.flatnonzero(~inside[:-1] & inside[1:])
+    rises = np.flatnonzero(inside[:-1] & ~inside[1:])
+    return [zero(f, x[i], x[i + 1]) for i in falls], [zero(f, x[i], x[i + 1]) for i in rises]
+
+
+def edges(
+    f: Function, lo: float, hi: float, guess: tuple[float, float], bottom: float
+) -> tuple[float, float] | None:
+    """The pair of zeros between which f < 0 that is nearest to the guess, or None.
+
+    Zeros closer together than the grid's step, of a narrower tongue that crosses this one, pass
+    unnoticed, unless they enclose `bottom`.
+    """
+    falls, rises = crossings(f, np.unique(np.append(np.linspace(lo, hi, GRID), bottom)))
+    pairs = [(a, b) for a in falls for b in rises if a < b]
+    return min(pairs, key=lambda p: abs(p[0] - guess[0]) + abs(p[1] - guess[1]), default=None)

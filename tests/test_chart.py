@@ -1,0 +1,244 @@
+"""Charts: the interpolated P(z), its error, its boundaries, its files, its refusals."""
+
+import csv
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from compare.__main__ import main
+from compare.chart import chebyshev, surface
+from compare.chart.compute import Chart, chart, evaluate
+from compare.chart.tongues import tongues
+from compare.resonances import half_width
+from floquet import monodromy
+from floquet.galerkin import galerkin
+from hill import SteppedBeam, UniformBeam, characteristic
+
+BEAM = UniformBeam(T0=20.0, K_theta=0.5, xi_G=0.5)
+WIDE = [("Omega", 0.35, 6.0, 300), ("gamma", 0.0, 0.5, 200)]
+
+
+@pytest.fixture(scope="module")
+def wide() -> Chart:
+    return chart(BEAM, WIDE, route="floquet")
+
+
+def test_series_reproduces_a_polynomial_exactly() -> None:
+    x, y = chebyshev.lobatto(9), chebyshev.lobatto(5)
+    f = lambda x, y: 1 + x**7 - 2 * x**3 * y**4 + y  # noqa: E731
+    series = chebyshev.coefficients(f(*np.meshgrid(x, y, indexing="ij"))[None], (1, 2))
+    at = np.random.default_rng(0).uniform(-1, 1, (2, 20))
+    assert np.allclose(chebyshev.at_points(series, tuple(at))[0], f(*at), rtol=0, atol=1e-14)
+    grid = chebyshev.on_grid(series, (at[0], at[1]))[0]
+    assert np.allclose(grid, f(*np.meshgrid(at[0], at[1], indexing="ij")), rtol=0, atol=1e-14)
+
+
+def test_every_second_point_of_a_finer_set_is_there() -> None:
+    assert np.allclose(chebyshev.lobatto(17)[::2], chebyshev.lobatto(9), rtol=0, atol=1e-16)
+
+
+def test_interpolant_is_within_its_bound_of_either_route(wide: Chart) -> None:
+    rng = np.random.default_rng(11)
+    Omega, gamma = rng.uniform(0.35, 6.0, 60), rng.uniform(0.0, 0.5, 60)
+    P = evaluate(wide.surface, np.column_stack([1.0 / Omega, gamma]))
+    for k in range(60):
+        c = characteristic(BEAM.equation(Omega[k], gamma[k]))
+        m = monodromy(galerkin(BEAM, Omega[k], gamma[k]))
+        assert np.abs(P[:, k] - c.polynomial).max() <= wide.error + c.error
+        assert np.abs(P[:, k] - m.polynomial).max() <= wide.error + m.error
+    assert wide.checked <= wide.error
+    assert wide.error < 1e-10
+    # a million points from so few: what the chart is for
+    assert wide.nodes < 2500
+
+
+def test_T_on_the_grid_is_T_of_the_equation(wide: Chart) -> None:
+    x, y = (axis.points for axis in wide.axes)
+    unstable = np.argwhere(wide.T > 1e-3)
+    assert len(unstable) > 1000
+    for j, i in unstable[:: len(unstable) // 25]:
+        c = characteristic(BEAM.equation(x[i], y[j]))
+        # P's bound of 1e-11 moves T by that over T; 1e-8 leaves a factor 1 for T = 1e-3
+        assert wide.T[j, i] == pytest.approx(c.T, abs=1e-8)
+    assert wide.T.shape == (200, 300)
+
+
+def test_damping_and_third_axis() -> None:
+    cube = chart(
+        BEAM,
+        [("Omega", 1.1, 1.2, 6), ("gamma", 0.1, 0.2, 5), ("T0", 18.0, 20.0, 4)],
+        forcing={"eta": 0.01},
+        route="floquet",
+        tolerance=1e-9,
+    )
+    assert cube.T.shape == (4, 5, 6)
+    c = characteristic(UniformBeam(T0=20.0, K_theta=0.5, xi_G=0.5).equation(1.2, 0.2, 0.01))
+    assert cube.T[-1, -1, -1] == pytest.approx(c.T, abs=1e-8)
+
+
+def test_both_routes_sample_and_meet() -> None:
+    small = chart(
+        BEAM, [("Omega", 1.0, 1.1, 5), ("gamma", 0.0, 0.1, 5)], route="both", tolerance=1e-9
+    )
+    # the routes' own difference at single points, 1e-13 at most
+    assert 0.0 < small.disagreement < 1e-12
+
+
+def test_a_pole_of_the_axial_force_is_met_directly(monkeypatch: pytest.MonkeyPatch) -> None:
+    # two cuts are enough to see the pole left to direct evaluation
+    monkeypatch.setattr(surface, "DEEPEST", 2)
+    monkeypatch.setattr(surface, "MOST", 33)
+    soft = UniformBeam(T0=20.0, K_theta=0.5, xi_G=0.5, omega_L=2.0)
+    near = chart(
+        soft, [("Omega", 1.98, 2.03, 6)], forcing={"gamma": 0.01}, route="floquet", tolerance=1e-4
+    )
+    assert near.direct > 0
+    c = characteristic(soft.equation(1.98, 0.01))
+    # P within 1e-4 leaves T, a root of it, 1e-2 of itself
+    assert near.T[0] == pytest.approx(c.T, rel=0.02, abs=1e-2)
+    # Omega = omega_L, the third point: the force is infinite, and so is T
+    assert np.isinf(near.T[2])
+    assert np.all(np.isfinite(np.delete(near.T, 2)))
+
+
+def test_boundaries_are_boundaries(wide: Chart) -> None:
+    found = tongues(wide, orders=1)
+    names = [tongue.resonance.name for tongue in found]
+    assert {"2 omega_(B)", "2 omega_(1)", "2 omega_(2)", "omega_(1) + omega_(B)"} <= set(names)
+    tongue = found[names.index("2 omega_(2)")]
+    for gamma in (0.05, 0.1, 0.3):
+        low, high = tongue.at(gamma) or (0.0, 0.0)
+        middle, beyond = 0.5 * (low + high), 0.02 * (high - low)
+        assert not monodromy(galerkin(BEAM, middle, gamma)).stable
+        for outside in (low - beyond, high + beyond):
+            assert monodromy(galerkin(BEAM, outside, gamma)).stable
+        for inside in (low + beyond, high - beyond):
+            assert not monodromy(galerkin(BEAM, inside, gamma)).stable
+    # first order in gamma: Hsu's width, the miss of second order
+    low, high = tongue.at(0.0203125) or (0.0, 0.0)
+    expected = half_width(tongue.resonance, BEAM.equation(5.0, 0.0203125))
+    assert 0.5 * (high - low) == pytest.approx(expected, rel=0.02)
+
+
+def interrupting(after: int) -> Callable[[Any, Iterable[Any]], Iterable[Any]]:
+    """A map that is killed after some jobs."""
+    done = 0
+
+    def run(function: Callable[[Any], Any], jobs: Iterable[Any]) -> Iterable[Any]:
+        nonlocal done
+        for job in jobs:
+            if done == after:
+                raise KeyboardInterrupt
+            done += 1
+            yield function(job)
+
+    return run
+
+
+def test_an_interrupted_chart_resumes(tmp_path: Path) -> None:
+    store = tmp_path / "nodes.npz"
+    with pytest.raises(KeyboardInterrupt):
+        chart(BEAM, WIDE, route="floquet", workers=interrupting(3), resume=store)
+    assert [p.name for p in tmp_path.iterdir()] == ["nodes.npz"]
+    again = chart(BEAM, WIDE, route="floquet", resume=store)
+    assert again.resumed > 100
+    fresh = chart(BEAM, WIDE, route="floquet")
+    assert np.array_equal(again.T, fresh.T)
+    # ... and a store of another chart is refused, as is any other file
+    with pytest.raises(ValueError, match="another chart"):
+        chart(BEAM, WIDE, route="hill", resume=store)
+    store.write_text("something else")
+    with pytest.raises(ValueError, match="not a file of finished nodes"):
+        chart(BEAM, WIDE, route="floquet", resume=store)
+
+
+def test_workers_change_nothing() -> None:
+    axes = [("Omega", 0.9, 1.3, 9), ("gamma", 0.0, 0.3, 9)]
+    one, two = (chart(BEAM, axes, route="floquet", workers=n) for n in (1, 2))
+    assert np.array_equal(one.T, two.T)
+
+
+@pytest.mark.parametrize(
+    ("axes", "forcing", "says"),
+    [
+        ([("Omega", 1.0, 0.5, 5), ("gamma", 0, 1, 5)], {}, "must ascend"),
+        ([("Omega", 0.0, 0.5, 5), ("gamma", 0, 1, 5)], {}, "greater than 0"),
+        ([("Omega", 1.0, 2.0, 1), ("gamma", 0, 1, 5)], {}, "points of Omega = 1"),
+        ([("omega", 1.0, 2.0, 5), ("gamma", 0, 1, 5)], {}, "axis = 'omega'"),
+        ([("xi_c", 0.0, 1.0, 5), ("Omega", 1, 2, 5)], {"gamma": 0.1}, "axis = 'xi_c'"),
+        ([("Omega", 1.0, 2.0, 5), ("Omega", 1, 2, 5)], {"gamma": 0.1}, "twice"),
+        ([("Omega", 1.0, 2.0, 5)], {}, "gamma: has no value"),
+        ([("xi_G", 0.5, 1.5, 5), ("Omega", 1, 2, 5)], {"gamma": 0.1}, "xi_G = 1.5"),
+        ([("Omega", 1.0, 2.0, 5)], {"gamma": 0.1, "T0": 3.0}, "T0"),
+    ],
+)
+def test_refusals(axes: list[Any], forcing: dict[str, float], says: str) -> None:
+    with pytest.raises(ValueError, match=says):
+        chart(BEAM, axes, forcing=forcing)
+
+
+def test_command_writes_each_kind(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    words = ["chart", "--x", "Omega", "0.95", "1.25", "30", "--y", "gamma", "0.1", "0.3", "20"]
+    words += ["--route", "floquet", "--tolerance", "1e-9"]
+    for suffix, starts in (
+        (".png", b"\x89PNG"),
+        (".svg", b"<?xml"),
+        (".npz", b"PK"),
+        (".csv", b"Omega,gamma,T"),
+    ):
+        target = tmp_path / f"chart{suffix}"
+        assert main([*words, "--output", str(target)]) == 0
+        assert target.read_bytes().startswith(starts)
+    out = capsys.readouterr().out
+    assert "30 x 20 points" in out
+    lines = list(csv.DictReader((tmp_path / "chart.csv").read_text().splitlines()))
+    assert len(lines) == 600
+    with np.load(tmp_path / "chart.npz") as content:
+        assert content["T"].shape == (20, 30)
+        assert float(lines[-1]["T"]) == pytest.approx(content["T"][-1, -1], abs=1e-11)
+
+
+def test_command_reads_a_file(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    source = tmp_path / "mine.toml"
+    source.write_text(
+        '[beam]\nkind = "stepped"\nT0 = 10.0\n[forcing]\ngamma = 0.1\n'
+        '[[axis]]\nname = "Omega"\nlow = 1.0\nhigh = 1.4\ncount = 7\n'
+        '[[axis]]\nname = "xi_G"\nlow = 0.4\nhigh = 0.6\ncount = 5\n'
+    )
+    assert (
+        main(["chart", str(source), "--route", "floquet", "--output", str(tmp_path / "c.npz")]) == 0
+    )
+    beam = SteppedBeam(T0=10.0, K_theta=1.0, xi_G=0.6, xi_c=0.6, area_ratio=0.6, inertia_ratio=0.6)
+    with np.load(tmp_path / "c.npz") as content:
+        assert content["T"][-1, -1] == pytest.approx(
+            max(characteristic(beam.equation(1.4, 0.1)).T, 0.0), abs=1e-8
+        )
+
+
+@pytest.mark.parametrize(
+    ("words", "says"),
+    [
+        (["--x", "Omega", "1", "2", "x", "--y", "gamma", "0", "1", "5"], "not a whole number"),
+        (["--x", "Omega", "1", "two", "5", "--y", "gamma", "0", "1", "5"], "not a number"),
+        (["--x", "Omega", "1", "2", "5", "--set", "gamma"], "NAME=VALUE"),
+        (["--x", "Omega", "1", "2", "5", "--output", "a.pdf"], "must end in"),
+        (["nowhere.toml"], "cannot be read"),
+        ([], "at least one parameter"),
+    ],
+)
+def test_command_refuses(
+    words: list[str],
+    says: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(["chart", *words]) == 2
+    captured = capsys.readouterr().err
+    assert captured.startswith("verify chart: ")
+    assert captured.count("\n") == 1
+    assert says in captured
