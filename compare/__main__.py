@@ -6,7 +6,7 @@ import sys
 from collections.abc import Sequence
 from importlib import import_module
 
-COMMANDS: tuple[str, ...] = ("listing", "chart", "claims")
+COMMANDS: tuple[str, ...] = ("listing", "figures", "claims", "chart")
 """Subcommands, each a module of `compare.commands` with SUMMARY, EPILOG, configure and run."""
 
 

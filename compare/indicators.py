@@ -24,7 +24,7 @@ Function = Callable[[Float], Float]
 # An interpolant is kept once its last two coefficients are this share of the largest: P itself is
 # known to about 1e-14.
 TAIL = 1e-12
-DEGREES = (16, 32, 64, 128, 256)
+DEGREES = (8, 16, 32, 64, 128, 256)
 # Points of the grid on which sign changes are looked for.
 GRID = 241
 

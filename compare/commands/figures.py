@@ -1,0 +1,115 @@
+"""``verify figures``: the report's Figures 3 to 29, drawn from both routes."""
+
+import argparse
+import os
+from collections.abc import Iterable
+from concurrent.futures import ProcessPoolExecutor
+from functools import partial
+from multiprocessing import get_context
+from pathlib import Path
+
+from compare.commands.terminal import progress
+from compare.figures.catalogue import FIGURES
+from compare.figures.compute import compute, named, tasks
+from compare.figures.data import as_csv
+from compare.figures.draw import draw, require
+from compare.output import check_writable, write_whole
+from hill import checks
+
+FORMATS = ("png", "svg", "csv")
+SUMMARY = "draw the report's figures, 3 to 29, from both routes"
+EPILOG = """\
+examples:
+  verify figures                       every figure, PNG, SVG and CSV, into ./figures
+  verify figures 8 17 --output plots   two of them
+  verify figures 27 --format csv       the data behind one
+
+Curves are one route's, circles the other's, diamonds printed; the caption has the largest
+disagreement of the routes and what was assumed. PNG and SVG need the extra: plot.
+
+exit status: 0 done; 2 wrong usage or input."""
+
+
+def configure(p: argparse.ArgumentParser) -> None:
+    """Options of the command."""
+    p.add_argument("number", type=int, nargs="*", metavar="NUMBER", help="3 to 29 (default all)")
+    p.add_argument(
+        "--output", type=Path, default=Path("figures"), metavar="DIR", help="(default ./figures)"
+    )
+    p.add_argument(
+        "--format", choices=FORMATS, action="append", help="repeatable (default all three)"
+    )
+    p.add_argument(
+        "--workers",
+        type=int,
+        default=os.cpu_count() or 1,
+        metavar="N",
+        help="processes (default: one a core)",
+    )
+
+
+def run(options: argparse.Namespace) -> int:
+    """Run it; return the exit status."""
+    numbers = tuple(sorted(set(options.number or FIGURES)))
+    for number in numbers:
+        named(number)
+    formats = tuple(options.format or FORMATS)
+    if set(formats) - {"csv"}:
+        require()
+    count = checks.count("workers", options.workers, least=1)
+    _prepare(options.output)
+    job = partial(_make, formats=formats, folder=options.output)
+    groups = tasks(numbers)
+    lines: list[tuple[int, str]] = []
+    with progress("figures", len(numbers)) as advance:
+
+        def collect(results: Iterable[list[tuple[int, str]]]) -> None:
+            for made in results:
+                for line in made:
+                    lines.append(line)
+                    advance(line)
+
+        if count == 1 or len(groups) == 1:
+            collect(map(job, groups))
+        else:
+            with ProcessPoolExecutor(count, mp_context=get_context("spawn")) as pool:
+                collect(pool.map(job, groups))
+    for _, text in sorted(lines):
+        print(text)
+    return 0
+
+
+def _prepare(folder: Path) -> None:
+    """The folder, made where its parent is there."""
+    if not folder.is_dir():
+        check_writable(folder)
+        try:
+            folder.mkdir()
+        except OSError as error:
+            reason = (error.strerror or str(error)).lower()
+            raise ValueError(f"output = {str(folder)!r}: cannot be made ({reason})") from None
+    check_writable(folder / "figure")
+
+
+def _make(group: tuple[int, ...], formats: tuple[str, ...], folder: Path) -> list[tuple[int, str]]:
+    """Figures of one group: computed, drawn, written; a line about each."""
+    made = []
+    for number in group:
+        data = compute(number)
+        content: dict[str, bytes] = {}
+        pictures = tuple(kind for kind in formats if kind != "csv")
+        if pictures:
+            content |= draw(data, pictures)
+        if "csv" in formats:
+            content["csv"] = as_csv(data).encode()
+        for kind, text in content.items():
+            write_whole(folder / f"figure{number:02d}.{kind}", text)
+        kinds = ", ".join(sorted(content))
+        made.append(
+            (
+                number,
+                f"Figure {number:2d}  {kinds}  the routes differ by {data.disagreement:.0e} "
+                f"in {data.quantity} at most",
+            )
+        )
+    return made
