@@ -1,18 +1,14 @@
 """Many rows: in order, with progress, on one process or several."""
 
-from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import ProcessPoolExecutor
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import partial
-from multiprocessing import get_context
 from typing import Any
 
 from compare.row import Method, Outcome, check
 from compare.tables import TABLES, Row, all_rows
+from compare.workers import MapLike, mapper
 from hill import checks
-
-MapLike = Callable[[Callable[[Row], Outcome], Iterable[Row]], Iterable[Outcome]]
 
 
 @dataclass(frozen=True)
@@ -110,8 +106,8 @@ def verify(
         raise ValueError(f"method = {method!r}: must be taylor or cvodes")
     job = partial(check, method=method, modes=checks.count("modes", modes, least=1))
     outcomes = []
-    with _mapper(workers) as mapper:
-        for outcome in mapper(job, chosen):
+    with mapper(workers, chunk=4) as run:
+        for outcome in run(job, chosen):
             outcomes.append(outcome)
             if progress is not None:
                 progress(outcome)
@@ -139,16 +135,3 @@ def select(tables: Iterable[int], names: Iterable[str] | None) -> tuple[Row, ...
 
 def _is_named(row: Row, name: str) -> bool:
     return name.upper() in (row.id.upper(), row.id.upper().rstrip("AB"))
-
-
-@contextmanager
-def _mapper(workers: int | MapLike) -> Iterator[MapLike]:
-    if callable(workers):
-        yield workers
-        return
-    count = checks.count("workers", workers, least=1)
-    if count == 1:
-        yield map
-        return
-    with ProcessPoolExecutor(count, mp_context=get_context("spawn")) as pool:
-        yield partial(pool.map, chunksize=4)

@@ -10,8 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from compare.chart import chebyshev, surface
-from compare.chart.nodes import ROUTES, MapLike, Nodes, mapper
+from compare.chart.nodes import ROUTES, Nodes
 from compare.chart.parameters import Axis, Beam, Family
+from compare.workers import MapLike, mapper
 from floquet.batch import polynomials
 from hill import checks
 from hill.roots import growth
@@ -98,8 +99,7 @@ def chart(
     tolerance : float, optional
         Of P's coefficients, relative to the largest; at least 1e-13.
     workers : int or map-like, optional
-        Processes, or a function that maps like `map` and keeps the order, such as
-        `compare.chart.nodes.dask_mapper` makes of a cluster.
+        Processes, or a function that maps like `map` and keeps the order.
     resume : path, optional
         A file of finished nodes: read if it is there, and kept up to date while nodes arrive.
     progress : callable, optional

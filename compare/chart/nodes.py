@@ -2,11 +2,7 @@
 
 import hashlib
 import io
-from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import ProcessPoolExecutor
-from contextlib import contextmanager
 from dataclasses import dataclass, replace
-from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
@@ -15,11 +11,11 @@ from numpy.typing import NDArray
 
 from compare.chart.parameters import Axis, Family
 from compare.output import write_whole
+from compare.workers import MapLike
 from floquet.batch import polynomials
-from hill import characteristic, checks
+from hill import characteristic
 
 Float = NDArray[np.floating[Any]]
-MapLike = Callable[[Callable[[Any], Any], Iterable[Any]], Iterable[Any]]
 
 ROUTES = ("floquet", "hill", "both")
 
@@ -151,32 +147,3 @@ class Nodes:
             raise ValueError(f"resume = {str(store)!r}: holds the nodes of another chart")
         self.known = {p.tobytes(): line for p, line in zip(points, lines, strict=True)}
         self.resumed = len(self.known)
-
-
-@contextmanager
-def mapper(workers: int | MapLike) -> Iterator[MapLike]:
-    """A map over jobs: this process, several, or whatever map-like is given."""
-    if callable(workers):
-        yield workers
-        return
-    count = checks.count("workers", workers, least=1)
-    if count == 1:
-        yield map
-        return
-    with ProcessPoolExecutor(count, mp_context=get_context("spawn")) as pool:
-        yield pool.map
-
-
-def dask_mapper(client: Any) -> MapLike:
-    """A map-like that runs jobs on a Dask cluster, for ``workers=``.
-
-    Parameters
-    ----------
-    client : dask.distributed.Client
-        Of a local or a remote cluster whose workers have this package installed.
-    """
-
-    def run(function: Callable[[Any], Any], jobs: Iterable[Any]) -> Iterable[Any]:
-        return (future.result() for future in client.map(function, list(jobs), pure=False))
-
-    return run
