@@ -2,10 +2,7 @@
 
 import argparse
 import os
-from collections.abc import Iterable
-from concurrent.futures import ProcessPoolExecutor
 from functools import partial
-from multiprocessing import get_context
 from pathlib import Path
 
 from compare.commands.terminal import progress
@@ -14,6 +11,7 @@ from compare.figures.compute import compute, named, tasks
 from compare.figures.data import as_csv
 from compare.figures.draw import draw, require
 from compare.output import check_writable, write_whole
+from compare.workers import mapper
 from hill import checks
 
 FORMATS = ("png", "svg", "csv")
@@ -23,6 +21,14 @@ examples:
   verify figures                       every figure, PNG, SVG and CSV, into ./figures
   verify figures 8 17 --output plots   two of them
   verify figures 27 --format csv       the data behind one
+
+figures:
+  3-7             natural frequencies under thrust
+  8, 17, 28       T against Omega, with damping dashed
+  9, 10, 18, 19   boundaries in Omega and T0, or gamma
+  11-14, 20-23    T_x against gamma; critical T0 and gamma
+  15, 16, 24, 25  regions with damping
+  26, 27, 29      longitudinal compliance
 
 Curves are one route's, circles the other's, diamonds printed; the caption has the largest
 disagreement of the routes and what was assumed. PNG and SVG need the extra: plot.
@@ -59,21 +65,12 @@ def run(options: argparse.Namespace) -> int:
     count = checks.count("workers", options.workers, least=1)
     _prepare(options.output)
     job = partial(_make, formats=formats, folder=options.output)
-    groups = tasks(numbers)
     lines: list[tuple[int, str]] = []
-    with progress("figures", len(numbers)) as advance:
-
-        def collect(results: Iterable[list[tuple[int, str]]]) -> None:
-            for made in results:
-                for line in made:
-                    lines.append(line)
-                    advance(line)
-
-        if count == 1 or len(groups) == 1:
-            collect(map(job, groups))
-        else:
-            with ProcessPoolExecutor(count, mp_context=get_context("spawn")) as pool:
-                collect(pool.map(job, groups))
+    with progress("figures", len(numbers)) as advance, mapper(count) as each:
+        for made in each(job, tasks(numbers)):
+            for line in made:
+                lines.append(line)
+                advance(line)
     for _, text in sorted(lines):
         print(text)
     return 0

@@ -10,11 +10,10 @@ from compare.figures.catalogue import GAMMA, Figure
 from compare.figures.data import FigureData, Float, Series, largest
 from compare.figures.regions import edge, expected, marks, parameters, to_zero
 from compare.figures.routes import Route, equation, solve
-from compare.indicators import crossings, growth, zero
+from compare.indicators import crossings, indicator, zero
+from compare.resonances import Resonance
 
-# T below this is stable. Beside a pole of G it is large, and its edge moves by less than 1e-8 for
-# it. Squared, since T^2 starts in a straight line, T does not.
-NOTHING = 1e-5
+SLOW = Resonance(0, 0)
 # From outside towards an undamped pole, each distance this share of the one before, to this one.
 APPROACH, NEAREST = 0.8, 1e-3
 # Points across the window where the pole is damped away.
@@ -25,9 +24,14 @@ HALVINGS = 6
 
 @dataclass(frozen=True)
 class Window:
-    """A longitudinal resonance, and the interval of Omega about it."""
+    """A longitudinal resonance, the interval of Omega about it, and what changes sign there.
+
+    At omega_L the diagonal of G has its pole, at 2 omega_L the rest of it (section 7.3.2): the
+    instability beside the first is of type I, beside the second of type II.
+    """
 
     name: str
+    kind: str
     pole: float
     lo: float
     hi: float
@@ -37,8 +41,8 @@ def windows(omega_L: float) -> tuple[Window, ...]:
     """Omega = omega_L, into which 2 omega_(1) leads, and Omega = 2 omega_L."""
     first, second = "2 omega_(1) and omega_L", "2 omega_L"
     return (
-        Window(first, omega_L, 0.75 * omega_L, 1.2 * omega_L),
-        Window(second, 2.0 * omega_L, 1.95 * omega_L, 2.05 * omega_L),
+        Window(first, "-1", omega_L, 0.75 * omega_L, 1.2 * omega_L),
+        Window(second, "discriminant", 2.0 * omega_L, 1.95 * omega_L, 2.05 * omega_L),
     )
 
 
@@ -46,13 +50,17 @@ def coupled(figure: Figure, detail: float = 1.0) -> FigureData:
     """Curves from the monodromy matrix, marks from Hill's determinant."""
     series: list[Series] = []
     differences = []
-    ys = [float(y) for y in np.linspace(*figure.span, spread(20, detail, 6) + 1)[1:]]
+    count = spread(16, detail, 6)
+    # closer at small thrust, where the regions open
+    ys = [figure.span[1] * (k / count) ** 1.5 for k in range(1, count + 1)]
     for g in figure.values:
         for resonance in RESONANCES:
             if (resonance.i, resonance.j) == (1, 1) or not expected(figure, resonance):
                 continue
-            family = family_of(figure, "floquet", g=g)
-            for tongue in follow(family, resonance, parameters(figure, resonance, 0.6 * detail)):
+            # slow where the forcing is
+            share, near = (0.3, (0.08, 0.35)) if resonance == SLOW else (0.7, (0.08, 0.35, 0.65))
+            T0s = parameters(figure, resonance, share * detail, near)
+            for tongue in follow(family_of(figure, "floquet", g=g), resonance, T0s):
                 piece = to_zero(figure, tongue)
                 y, lower, upper, difference = marks(figure, tongue, g, 2)
                 series += _both(g, resonance.name, piece, np.append(y, y), np.append(lower, upper))
@@ -85,7 +93,7 @@ def about(figure: Figure, window: Window, g: float, ys: list[float]) -> list[Pie
         found = {0.0: (window.pole, window.pole)}
         distance = abs(end - window.pole)
         for y in reversed(ys):  # wide to narrow
-            edge_found = towards_pole(figure, window.pole, side * distance, y)
+            edge_found = towards_pole(figure, window, side * distance, y)
             found[y] = (min(edge_found, window.pole), max(edge_found, window.pole))
             distance = min(distance, 1.25 * abs(edge_found - window.pole))
         pieces.append(_piece(found))
@@ -118,13 +126,13 @@ def across(figure: Figure, window: Window, g: float, T0: float) -> tuple[float, 
     """First and last unstable Omega of a window whose pole is damped away."""
 
     def f(x: Float) -> Float:
-        return NOTHING**2 - T(figure, "floquet", g, T0, x) ** 2
+        return inside(figure, window, "floquet", g, T0, x)
 
     falls, rises = crossings(f, np.linspace(window.lo, window.hi, GRID))
     return (falls[0], rises[-1]) if falls and rises else None
 
 
-def towards_pole(figure: Figure, pole: float, start: float, T0: float) -> float:
+def towards_pole(figure: Figure, window: Window, start: float, T0: float) -> float:
     """The first unstable Omega on the way to an undamped pole, from a distance with its sign.
 
     Raises
@@ -134,9 +142,9 @@ def towards_pole(figure: Figure, pole: float, start: float, T0: float) -> float:
     """
 
     def f(x: Float) -> Float:
-        return NOTHING**2 - T(figure, "floquet", 0.0, T0, x) ** 2
+        return inside(figure, window, "floquet", 0.0, T0, x)
 
-    distance = start
+    distance, pole = start, window.pole
     while f(np.array([pole + APPROACH * distance]))[0] >= 0.0:
         distance *= APPROACH
         if abs(distance) < NEAREST:
@@ -144,10 +152,13 @@ def towards_pole(figure: Figure, pole: float, start: float, T0: float) -> float:
     return zero(f, *sorted((pole + distance, pole + APPROACH * distance)))
 
 
-def T(figure: Figure, route: Route, g: float, T0: float, Omega: Float) -> Float:
-    """The characteristic argument at many Omega."""
+def inside(
+    figure: Figure, window: Window, route: Route, g: float, T0: float, Omega: Float
+) -> Float:
+    """Negative where unstable."""
     beam = beam_of(figure, T0=T0, g=g)
-    return growth(solve(route, [equation(route, beam, float(x), GAMMA) for x in Omega]), Omega)
+    P = solve(route, [equation(route, beam, float(x), GAMMA) for x in Omega])
+    return indicator(window.kind, P, Omega)
 
 
 def _marks(figure: Figure, window: Window, g: float, piece: Piece) -> tuple[Float, Float, Float]:
@@ -157,7 +168,7 @@ def _marks(figure: Figure, window: Window, g: float, piece: Piece) -> tuple[Floa
         width = float(piece.upper[i] - piece.lower[i])
 
         def f(x: float, y: float = float(piece.y[i])) -> float:
-            return NOTHING**2 - float(T(figure, "hill", g, y, np.array([x]))[0]) ** 2
+            return float(inside(figure, window, "hill", g, y, np.array([x]))[0])
 
         for e in (float(piece.lower[i]), float(piece.upper[i])):
             if e != window.pole:

@@ -66,7 +66,7 @@ def _envelope(figure: Figure, detail: float) -> list[Series]:
     """For every thrust the smallest gamma that is unstable with damping; T0 is the x here."""
     highest, end = 24.0 if figure.stepped else 25.0, figure.span[1]
     # what crosses 2 omega_(B) makes its envelope intricate
-    count = spread(193 if figure.resonance == "2 omega_(B)" else 49, detail, 9)
+    count = spread(121 if figure.resonance == "2 omega_(B)" else 49, detail, 9)
     found: dict[float, float | None] = {}
     before = LEAST_T0
     for T0 in map(float, np.linspace(LEAST_T0, highest, count)):

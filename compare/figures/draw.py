@@ -11,6 +11,10 @@ from compare.figures.data import FigureData
 MISSING = 'matplotlib is not installed: pip install "floquet-crosscheck[plot]"'
 LINE = 0.158
 """Inches from one line of a caption to the next."""
+CAPTION = 8.2
+"""Points."""
+INDENT = 0.012
+"""Margin of the caption, as a share of the width."""
 
 DRAWERS: dict[str, tuple[Callable[..., None], float]] = {
     "frequencies": (panels.frequencies, 5.2),
@@ -50,7 +54,7 @@ def draw(data: FigureData, formats: tuple[str, ...]) -> dict[str, bytes]:
     drawer, height = DRAWERS[figure.kind]
     rc: Any = style.RC
     with matplotlib.rc_context(rc):
-        text = style.wrapped(style.caption(figure, data), 142)
+        text = style.wrapped(style.caption(figure, data), _width(), 1.0 - 2.0 * INDENT)
         below = LINE * (text.count("\n") + 1) + 0.12
         page = Figure(figsize=(style.WIDTH, height + below))
         FigureCanvasAgg(page)
@@ -59,10 +63,34 @@ def draw(data: FigureData, formats: tuple[str, ...]) -> dict[str, bytes]:
             "constrained", rect=(0.0, share, 1.0, 1.0 - share), w_pad=0.04, h_pad=0.04
         )
         page.text(
-            0.012, share - 0.06 / (height + below), text, fontsize=8.2, va="top", linespacing=1.25
+            INDENT,
+            share - 0.06 / (height + below),
+            text,
+            fontsize=CAPTION,
+            va="top",
+            linespacing=1.25,
         )
         drawer(page, figure, data)
+        page.draw_without_rendering()  # lay out once, not for every format
+        page.set_layout_engine("none")
         return {kind: _saved(page, kind) for kind in formats}
+
+
+def _width() -> Callable[[str], float]:
+    """Width of a caption's words, as a share of the page's."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    page = Figure(figsize=(style.WIDTH, 1.0))
+    canvas: Any = FigureCanvasAgg(page)
+    renderer = canvas.get_renderer()
+    probe = page.text(0.0, 0.0, "", fontsize=CAPTION)
+
+    def width(word: str) -> float:
+        probe.set_text(word)
+        return float(probe.get_window_extent(renderer).width) / float(page.bbox.width)
+
+    return width
 
 
 def _saved(page: Any, kind: str) -> bytes:

@@ -62,7 +62,7 @@ def frequencies(page: Any, figure: Figure, data: FigureData) -> None:
             fontsize=8.0,
             arrowprops={"arrowstyle": "-", "lw": 0.5, "shrinkB": 3.0},
         )
-    top.legend(loc="lower left", ncols=len(labels), columnspacing=1.2)
+    top.legend(loc="lower left", bbox_to_anchor=(-0.01, 0.99), ncols=len(labels), columnspacing=1.2)
     top.set_ylabel(r"$\bar\omega_{(2)}$")
     bottom.set_ylabel(r"$\bar\omega_{(B)},\ \bar\omega_{(1)}$")
     bottom.set_xlabel(r"$\bar T_0$")

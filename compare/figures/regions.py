@@ -31,7 +31,7 @@ def regions(figure: Figure, detail: float = 1.0) -> FigureData:
     series += [as_series(tongue, tongue.resonance.name) for tongue in shown]
     differences = []
     for tongue in shown:
-        y, lower, upper, difference = marks(figure, tongue)
+        y, lower, upper, difference = marks(figure, tongue, count=spread(MARKS, detail, 1))
         name = tongue.resonance.name
         series.append(Series(name, "mark", "hill", y, lower, upper, panel=name))
         differences.append(difference)
@@ -73,15 +73,20 @@ def tongues(number: int, detail: float) -> tuple[Tongue, ...]:
     return tuple(found if figure.eta else [to_zero(figure, tongue) for tongue in found])
 
 
-def parameters(figure: Figure, resonance: Resonance, detail: float) -> list[float]:
-    """Values of T0 or gamma; closer where the tongue turns."""
+def parameters(
+    figure: Figure,
+    resonance: Resonance,
+    detail: float,
+    near: tuple[float, ...] = (0.03, 0.12, 0.3, 0.6),
+) -> list[float]:
+    """Values of T0 or gamma, closer where the tongue turns; `near` zero, in steps of them."""
     lo, hi = figure.span
     bent = resonance in (RESONANCES[0], THIRD)
     count = spread(49 if bent else 25, detail, 9)
     even = np.linspace(lo, hi, count + 1)[1:]
     # the frequency of rotation starts like the square root of T0
     rotates = resonance.j == 0 and figure.along == "T0"
-    near_zero = even[0] * np.array([0.03, 0.12, 0.3, 0.6]) if rotates else []
+    near_zero = even[0] * np.array(near) if rotates else []
     return [float(v) for v in (*near_zero, *even)]
 
 

@@ -1,6 +1,7 @@
 """How the figures look: type, colours, symbols, captions."""
 
 import re
+from collections.abc import Callable
 from typing import Any
 
 from compare.figures.catalogue import ETA, GAMMA, Figure
@@ -156,25 +157,19 @@ def _power(number: float) -> str:
     return rf"${mantissa}\times10^{{{int(exponent)}}}$"
 
 
-def wrapped(text: str, columns: int) -> str:
-    """Lines of about equal length; mathematics is not broken and counts as what it prints."""
-    words = re.findall(r"(?:\$[^$]*\$|[^ $])+", text)
-    lines: list[str] = [""]
-    used = 0
-    for word in words:
-        size = _printed_length(word)
-        if used + size + 1 > columns:
-            lines.append("")
-            used = 0
-        lines[-1] += (" " if lines[-1] else "") + word
-        used += size + 1
+def wrapped(text: str, width: Callable[[str], float], room: float) -> str:
+    """Lines no wider than `room`; mathematics is not broken."""
+    lines: list[str] = []
+    used, space = room, 0.55 * width("n")
+    for word in re.findall(r"(?:\$[^$]*\$|[^ $])+", text):
+        size = width(word)
+        if used + space + size > room:
+            lines.append(word)
+            used = size
+        else:
+            lines[-1] += " " + word
+            used += space + size
     return "\n".join(lines)
-
-
-def _printed_length(word: str) -> int:
-    bare = re.sub(r"\\(?:bar|bf|mathrm)", "", word)
-    bare = re.sub(r"\\[a-zA-Z]+", "x", bare)
-    return len(re.sub(r"[{}$_^\\]", "", bare))
 
 
 FIRST_ORDER = (
@@ -209,7 +204,7 @@ NOTES = {
     17: TRUNCATED,
     18: f"{FIRST_ORDER} {REPELS} {HOLLOW}",
     19: f"{FIRST_ORDER} {REPELS} {HOLLOW}",
-    20: f"{SHADED} {TRUNCATED}",
+    20: f"{SHADED} Spikes: instabilities of higher order that cross the resonance. {TRUNCATED}",
     24: f"{FIRST_ORDER} {REPELS} {OUTLINES} Open diamonds: $T\\leq\\eta$.",
     25: f"{FIRST_ORDER} {REPELS} {OUTLINES} Open diamonds: $T\\leq\\eta$.",
     26: r"Dotted: $\bar\omega_L=\bar\Omega$, where $G$ is infinite; curves begin at three quarters "
