@@ -261,6 +261,35 @@ def test_negative_diagonal() -> None:
 # ---- equations -----------------------------------------------------------------------------------
 
 
+def test_constant_thrust_accelerates_the_bar() -> None:
+    """u_2 of (4.2.14) under a steady thrust: the wave equation and (4.2.12)."""
+    AE, m, length, T0 = 7.0, 0.3, 2.5, 1.1
+    alpha2 = m / AE
+
+    def residual(t2: float) -> float:
+        """A E u_xx - m u_tt over T0/l, for u = -T0 x^2/(2 A E l) - t2 t^2."""
+        return (AE * (-T0 / (AE * length)) + 2.0 * m * t2) / (T0 / length)
+
+    assert abs(residual(T0 / (2.0 * AE * alpha2 * length))) < 1e-14
+    assert abs(residual(T0 / (2.0 * AE * length**2))) > 0.5
+
+
+def test_two_constants_of_the_stepped_deck() -> None:
+    """The other entries are the modes to 2e-5, five figures and a rounding; these two are not."""
+    deck = constants("stepped")
+    found = {}
+    for n in range(1, 6):
+        shape = import_module("hill.modes").slope(n)
+        lam = import_module("hill.modes").eigenvalue(n)
+        for row in range(10):
+            exact = shape((row + 1) / 10) / lam
+            if abs(deck.D1PH[row, n - 1] - exact) > 1e-4:
+                found[n, row + 1] = (deck.D1PH[row, n - 1], round(exact, 5))
+    assert set(found) == {(1, 4), (4, 5)}
+    assert found[1, 4] == pytest.approx((-0.75007, -0.73007), abs=2e-5)
+    assert found[4, 5] == pytest.approx((-1.415192, -1.41592), abs=2e-5)
+
+
 def test_forced_bar_has_the_thrust_frequency() -> None:
     """(4.2.10) solves A E u_xx = m u_tt with cos(Omega t), and not with cos(alpha Omega t)."""
     x, t = ca.SX.sym("x"), ca.SX.sym("t")
