@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from compare.__main__ import main
-from compare.chart import chebyshev, surface
-from compare.chart.compute import Chart, chart, evaluate
-from compare.chart.tongues import tongues
+from compare.charts import chebyshev, surface
+from compare.charts.compute import Chart, chart, evaluate
+from compare.charts.tongues import tongues
 from compare.resonances import half_width
 from floquet import monodromy
 from floquet.galerkin import galerkin

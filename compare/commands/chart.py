@@ -10,11 +10,11 @@ import numpy as np
 from rich.console import Console
 from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 
-from compare.chart import specification
-from compare.chart.compute import Chart, chart
-from compare.chart.draw import picture
-from compare.chart.nodes import ROUTES
-from compare.chart.tongues import tongues
+from compare.charts import specification
+from compare.charts.compute import Chart, chart
+from compare.charts.draw import picture
+from compare.charts.nodes import ROUTES
+from compare.charts.tongues import tongues
 from compare.output import check_writable, write_whole
 
 SUMMARY = "chart the characteristic argument T over two parameters or more"

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from compare.chart.parameters import Axis, Family
+from compare.charts.parameters import Axis, Family
 from compare.output import write_whole
 from compare.workers import MapLike
 from floquet.batch import polynomials
@@ -67,7 +67,7 @@ def evaluate(job: Job) -> Float:
 
 
 class Nodes:
-    """A sampler for `compare.chart.surface.fit` that remembers, on disk if asked.
+    """A sampler for `compare.charts.surface.fit` that remembers, on disk if asked.
 
     Parameters
     ----------

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import Any
 
-from compare.chart.parameters import Axis, Beam
+from compare.charts.parameters import Axis, Beam
 from hill import SteppedBeam, UniformBeam
 
 BEAMS: dict[str, type[Beam]] = {"uniform": UniformBeam, "stepped": SteppedBeam}

@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 
 from compare.boundaries import Family as Curves
 from compare.boundaries import Tongue, follow
-from compare.chart import chebyshev
-from compare.chart.compute import Chart
-from compare.chart.parameters import with_forcing
-from compare.chart.surface import Surface
+from compare.charts import chebyshev
+from compare.charts.compute import Chart
+from compare.charts.parameters import with_forcing
+from compare.charts.surface import Surface
 from compare.resonances import first_order, modal
 from floquet.batch import polynomials
 from hill import HillEquation

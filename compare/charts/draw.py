@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from compare.boundaries import Tongue
-from compare.chart.compute import Chart
+from compare.charts.compute import Chart
 from compare.tables import all_rows
 from hill import SteppedBeam, UniformBeam
 

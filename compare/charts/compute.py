@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from compare.chart import chebyshev, surface
-from compare.chart.nodes import ROUTES, Nodes
-from compare.chart.parameters import Axis, Beam, Family
+from compare.charts import chebyshev, surface
+from compare.charts.nodes import ROUTES, Nodes
+from compare.charts.parameters import Axis, Beam, Family
 from compare.workers import MapLike, mapper
 from floquet.batch import polynomials
 from hill import checks

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from compare.chart import chebyshev
+from compare.charts import chebyshev
 
 Float = NDArray[np.floating[Any]]
 
