@@ -1,31 +1,29 @@
-"""Many equations at once: P(z) of each, without Python in the inner loop.
+"""P(z) of many equations at once, without Python in the inner loop.
 
-In the phase theta = Omega tau the period is 2 pi for every equation, so they share the steps, and
-with them the Taylor coefficients of the cosines. Equations with the same matrices sit side by side
-as columns: a Taylor coefficient of all of them is one array, and the recurrence for the next one is
-two matrix products.
+The points run through half a period side by side (`floquet.march`), by numpy or, where there is a
+C compiler and enough of them, by a compiled kernel (`floquet.compiled`).
 """
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import ceil, factorial
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
+from floquet import compiled
+from floquet.march import March, Points, by_numpy
 from floquet.monodromy import WELL, monodromy
-from floquet.steps import Term, longest_step, perron, rate
 from hill import HillEquation
 
 Float = NDArray[np.floating[Any]]
+Kernel = Literal["auto", "compiled", "numpy"]
 EPS = float(np.finfo(float).eps)
+KERNELS = ("auto", "compiled", "numpy")
 
-ORDER, TOLERANCE = 24, 1e-17
-"""As for `floquet.propagate.Taylor`."""
-
-CHUNK = 256
-"""Equations side by side: enough to hide Python's share, few enough for the cache."""
+# Where "auto" compiles: building takes as long as numpy needs for about this many points. It does
+# not look whether the build is there already: the same call is to give the same digits.
+WORTH_COMPILING = 5000
 
 # Rounding, in ulps of the terms summed, for each radian of the fastest motion; the largest seen is
 # a sixth of it (tests/test_batch.py, against `monodromy`).
@@ -49,20 +47,36 @@ class Polynomials:
     errors: Float
 
 
-def polynomials(equations: Sequence[HillEquation]) -> Polynomials:
+@dataclass(frozen=True, eq=False)
+class _Forcing:
+    """Omega, gamma and eta of several points, each (k,)."""
+
+    Omega: Float
+    gamma: Float
+    eta: Float
+
+    def __getitem__(self, index: Any) -> "_Forcing":
+        return _Forcing(self.Omega[index], self.gamma[index], self.eta[index])
+
+
+def polynomials(equations: Sequence[HillEquation], *, kernel: Kernel = "auto") -> Polynomials:
     """P(z) of many equations of one size, over half a period each.
 
-    Quickest where many equations share F, G and H and differ in `Omega`, `gamma` and `eta`.
+    Quickest where many equations share F, G and H and differ in `Omega`, `gamma` and `eta`;
+    `sweep` takes those as arrays.
 
     Parameters
     ----------
     equations : sequence of HillEquation
         All with the same number of coordinates; `eta` one number.
+    kernel : {"auto", "compiled", "numpy"}, optional
+        "auto" builds the C kernel for `WORTH_COMPILING` equations or more, where there is a
+        compiler.
 
     Raises
     ------
     ValueError
-        Equations of different sizes; `eta` a matrix.
+        Equations of different sizes; `eta` a matrix; no compiler for "compiled".
     OverflowError
         The growth over one period exceeds what a float can hold.
     """
@@ -73,10 +87,66 @@ def polynomials(equations: Sequence[HillEquation]) -> Polynomials:
         raise ValueError("equations: must all have the same number of coordinates")
     coefficients, errors = np.empty((len(equations), n + 1)), np.empty(len(equations))
     for members in _alike(equations):
-        for chunk in _by_rate(equations, members):
-            own = [equations[i] for i in chunk]
-            coefficients[chunk], errors[chunk] = _chunk(own)
+        own = [equations[i] for i in members]
+        forcing = _Forcing(*(np.array(v) for v in zip(*map(_numbers, own), strict=True)))
+        march = _march(kernel, len(equations), own[0])
+        coefficients[members], errors[members] = _many(own[0], forcing, march)
     return Polynomials(coefficients, errors)
+
+
+def sweep(
+    equation: HillEquation,
+    *,
+    Omega: ArrayLike,
+    gamma: ArrayLike,
+    eta: ArrayLike = 0.0,
+    kernel: Kernel = "auto",
+) -> Polynomials:
+    """P(z) of one beam, F and G, under many forcings.
+
+    Parameters
+    ----------
+    equation : HillEquation
+        F and G; its own `Omega`, `gamma` and `eta` are not used.
+    Omega, gamma, eta : array_like
+        Broadcast against each other to k points.
+    kernel : {"auto", "compiled", "numpy"}, optional
+        As for `polynomials`.
+
+    Raises
+    ------
+    ValueError
+        `equation` has terms H, whose frequency cannot stay while Omega varies; a value that is not
+        finite, or an Omega not above 0.
+    OverflowError
+        The growth over one period exceeds what a float can hold.
+    """
+    if equation.H:
+        raise ValueError("H: must be absent, its period would not stay a multiple of 2 pi/Omega")
+    numbers = np.broadcast_arrays(*(np.asarray(v, float) for v in (Omega, gamma, eta)))
+    for name, values in zip(("Omega", "gamma", "eta"), numbers, strict=True):
+        bad = ~np.isfinite(values) | ((values <= 0.0) & (name == "Omega"))
+        if np.any(bad):
+            rule = "finite and greater than 0" if name == "Omega" else "finite"
+            raise ValueError(f"{name} = {values[bad][0]}: must be {rule}")
+    forcing = _Forcing(*(values.ravel() for values in numbers))
+    march = _march(kernel, len(forcing.Omega), equation)
+    return Polynomials(*_many(equation, forcing, march))
+
+
+def _march(kernel: str, count: int, equation: HillEquation) -> March:
+    if kernel not in KERNELS:
+        raise ValueError(f"kernel = {kernel!r}: must be one of {', '.join(KERNELS)}")
+    if kernel == "numpy" or (kernel == "auto" and count < WORTH_COMPILING):
+        return by_numpy
+    found = compiled.march(equation.n, 1 + len(equation.H))
+    if found is None and kernel == "compiled":
+        raise ValueError('kernel = "compiled": found no working C compiler; use "auto" or "numpy"')
+    return found or by_numpy
+
+
+def _numbers(e: HillEquation) -> tuple[float, float, float]:
+    return e.Omega, e.gamma, e.damping
 
 
 def _alike(equations: Sequence[HillEquation]) -> list[list[int]]:
@@ -88,100 +158,31 @@ def _alike(equations: Sequence[HillEquation]) -> list[list[int]]:
     return list(groups.values())
 
 
-def _by_rate(equations: Sequence[HillEquation], members: list[int]) -> list[list[int]]:
-    """Chunks of similar rates, so that no equation takes many more steps than it needs."""
-    ordered = sorted(members, key=lambda i: equations[i].Omega)
-    return [ordered[k : k + CHUNK] for k in range(0, len(ordered), CHUNK)]
-
-
-def _chunk(equations: Sequence[HillEquation]) -> tuple[Float, Float]:
-    first = equations[0]
-    n, ratio = first.n, first.ratio if first.H else 1
-    x = np.array([1.0 / e.Omega**2 for e in equations])
-    y = np.array([e.gamma / e.Omega**2 for e in equations])
-    shift = np.array([0.25 * e.damping**2 for e in equations]) * x
-    # moduli only: the largest of each bounds them all
-    worst = _terms(first, x.max(), np.abs(y).max(), shift.max(), ratio)
-    nothing = np.zeros((n, n))
-    steps = ceil(np.pi / longest_step(worst, nothing, ORDER, TOLERANCE))
-    U = _half_period(first, x, y, shift, ratio, steps)
-    if not np.all(np.isfinite(U)):
-        raise OverflowError("the solution grows beyond what a float can hold within one period")
-
-    inverse = np.linalg.inv(U)
-    A = 2.0 * inverse[:, :n, :n] @ U[:, :n, :n] - np.eye(n)
-    scale = np.abs(inverse) @ np.abs(U)
-    P, sensitivity = characteristic_polynomials(A, scale[:, :n, :n])
-    errors = ULPS * EPS * (2.0 + 2.0 * np.pi * rate(worst, nothing)) * sensitivity
+def _many(e: HillEquation, forcing: _Forcing, march: March) -> tuple[Float, Float]:
+    """P and its error under each forcing; neighbours in Omega go together, they need like steps."""
+    ordered = np.argsort(forcing.Omega, kind="stable")
+    ratio = e.ratio if e.H else 0
+    Omega, gamma, eta = (v[ordered] for v in (forcing.Omega, forcing.gamma, forcing.eta))
+    x = 1.0 / Omega**2
+    points = Points(
+        matrices=np.array([e.F, e.G, *e.H]),
+        weights=np.array([x, gamma * x] + [x] * len(e.H)),
+        shift=0.25 * eta**2 * x,
+        phases=(1, *(s * ratio for s in range(1, len(e.H) + 1))),
+    )
+    found = march(points)
+    P, errors = np.empty((len(x), e.n + 1)), np.empty(len(x))
+    P[ordered] = found.P
+    errors[ordered] = ULPS * EPS * (2.0 + 2.0 * np.pi * found.rate) * found.sensitivity
     # as in `monodromy`: much growth makes the half period's inverse a poor one
-    for i in map(int, np.flatnonzero(perron(scale) >= WELL)):
-        m = monodromy(equations[i])
-        P[i], errors[i] = m.polynomial, m.error
+    for i in map(int, ordered[found.growth >= WELL]):
+        P[i], errors[i] = _alone(e, forcing[i])
     return P, errors
 
 
-def _terms(e: HillEquation, x: float, y: float, shift: float, ratio: int) -> list[Term]:
-    """Stiffness matrices in the phase, with the frequencies of their cosines."""
-    free = [(x * H_s, float(s * ratio)) for s, H_s in enumerate(e.H, start=1)]
-    return [(x * np.abs(e.F) + shift * np.eye(e.n), 0.0), (y * e.G, 1.0), *free]
-
-
-def _half_period(
-    e: HillEquation, x: Float, y: Float, shift: Float, ratio: int, steps: int
-) -> Float:
-    """Fundamental matrices of (u, du/dtheta) at theta = pi, shape (k, 2n, 2n).
-
-    u'' = -(x F - shift) u - y cos(theta) G u - x sum_s cos(s r theta) H_s u.
-    """
-    n, k = e.n, len(x)
-    h = np.pi / steps
-    matrices = np.hstack([e.F, e.G, *e.H])
-    weights = -h * h * np.array([x, y] + [x] * len(e.H))
-    phases = [1] + [s * ratio for s in range(1, len(e.H) + 1)]
-
-    a = np.zeros((ORDER + 1, n, 2 * n, k))
-    flat = a.reshape(ORDER + 1, -1)
-    force = np.empty((len(weights), n, 2 * n, k))
-    powers = np.arange(ORDER + 1.0)
-    a[0, np.arange(n), np.arange(n)] = 1.0
-    a[1, np.arange(n), np.arange(n, 2 * n)] = h
-    for step in range(steps):
-        cosines = [_reversed_cosine(p, p * h, step * h) for p in phases]
-        for j in range(ORDER - 1):
-            np.multiply(a[j], weights[0], out=force[0])
-            for i, cosine in enumerate(cosines, start=1):
-                product = (cosine[ORDER - 1 - j :] @ flat[: j + 1]).reshape(a[0].shape)
-                np.multiply(product, weights[i], out=force[i])
-            np.matmul(matrices, force.reshape(len(weights) * n, -1), out=a[j + 2].reshape(n, -1))
-            if np.any(shift):
-                a[j + 2] += (h * h * shift) * a[j]
-            a[j + 2] /= (j + 1) * (j + 2)
-        position, velocity = np.ones(ORDER + 1) @ flat, powers @ flat
-        flat[0], flat[1] = position, velocity
-    result = np.concatenate([a[0], a[1] / h])
-    return np.ascontiguousarray(np.moveaxis(result, -1, 0))
-
-
-def _reversed_cosine(frequency: int, turn: float, theta: float) -> Float:
-    """Taylor coefficients of cos(frequency (theta + x h)) in x, last one first."""
-    c, s = np.cos(frequency * theta), np.sin(frequency * theta)
-    cycle = (c, -s, -c, s)
-    series = [cycle[j % 4] * turn**j / factorial(j) for j in range(ORDER)]
-    return np.array(series[::-1])
-
-
-def characteristic_polynomials(A: Float, scale: Float) -> tuple[Float, Float]:
-    """As `floquet.monodromy.characteristic_polynomial`, for many matrices (k, n, n)."""
-    k, n = A.shape[:2]
-    z = np.linalg.eigvals(A)
-    p = np.zeros((k, n + 1), complex)
-    p[:, 0] = 1.0
-    for j in range(n):
-        p[:, 1:] -= z[:, j, None] * p[:, :-1]
-    real = np.ascontiguousarray(p.real)
-    B, largest = np.broadcast_to(np.eye(n), A.shape), np.zeros(k)
-    for j in range(n):
-        moved = np.sum(np.abs(np.swapaxes(B, 1, 2)) * scale, axis=(1, 2))
-        largest = np.maximum(largest, moved)
-        B = A @ B + real[:, j + 1, None, None] * np.eye(n)
-    return real, largest
+def _alone(e: HillEquation, forcing: _Forcing) -> tuple[Float, float]:
+    Omega, gamma, eta = float(forcing.Omega), float(forcing.gamma), float(forcing.eta)
+    omega_L = e.ratio * Omega if e.H else e.omega_L
+    own = HillEquation(F=e.F, G=e.G, gamma=gamma, Omega=Omega, eta=eta, H=e.H, omega_L=omega_L)
+    m = monodromy(own)
+    return m.polynomial, m.error

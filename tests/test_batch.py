@@ -1,12 +1,16 @@
 """Many equations at once give what one at a time gives."""
 
+from pathlib import Path
+from typing import Any
+
 import numpy as np
 import pytest
 from systems import random_system
 
-from floquet import monodromy
-from floquet.batch import polynomials
-from floquet.steps import longest_step
+from floquet import compiled, monodromy
+from floquet.batch import WORTH_COMPILING, polynomials, sweep
+from floquet.march import growth_bound
+from floquet.steps import longest_step, perron
 from hill import HillEquation, UniformBeam
 from hill.roots import growth, most_isolated_root
 from hill.stability import modulus
@@ -14,11 +18,18 @@ from hill.stability import modulus
 BEAM = UniformBeam(T0=20.0, K_theta=0.5, xi_G=0.5).equation(1.0, 0.1)
 
 
+needs_compiler = pytest.mark.skipif(compiled.compiler() is None, reason="no C compiler here")
+each_kernel = pytest.mark.parametrize(
+    "kernel", ["numpy", pytest.param("compiled", marks=needs_compiler)]
+)
+
+
+@each_kernel
 @pytest.mark.parametrize("seeds", [range(30), range(30, 60)], ids=str)
-def test_random_systems_within_both_bounds(seeds: range) -> None:
+def test_random_systems_within_both_bounds(seeds: range, kernel: Any) -> None:
     for seed in seeds:
         equation = random_system(seed)
-        many, one = polynomials([equation]), monodromy(equation)
+        many, one = polynomials([equation], kernel=kernel), monodromy(equation)
         apart = np.abs(many.coefficients[0] - one.polynomial).max()
         assert apart <= many.errors[0] + one.error
         # measured: 0.38 of the batch's own bound at most over 200 systems
@@ -45,7 +56,87 @@ def test_order_is_kept_and_neighbours_do_not_matter() -> None:
         assert np.abs(together.coefficients[k] - m.polynomial).max() <= together.errors[k] + m.error
 
 
+def forcings(count: int) -> tuple[Any, Any]:
+    rng = np.random.default_rng(9)
+    return rng.uniform(0.35, 6.0, count), rng.uniform(0.0, 0.5, count)
+
+
+@each_kernel
+def test_sweep_is_the_same_points(kernel: Any) -> None:
+    Omega, gamma = forcings(21)
+    swept = sweep(BEAM, Omega=Omega, gamma=gamma, eta=0.03, kernel=kernel)
+    for k in range(0, 21, 5):
+        m = monodromy(HillEquation(F=BEAM.F, G=BEAM.G, gamma=gamma[k], Omega=Omega[k], eta=0.03))
+        assert np.abs(swept.coefficients[k] - m.polynomial).max() <= swept.errors[k] + m.error
+    # bounds that say something: 1e-12 at the lowest Omega, where 50 radians are run through
+    assert swept.errors.max() < 3e-12
+
+
+def test_auto_depends_on_the_count_only(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The same call gives the same digits, whatever was built before it."""
+    asked: list[tuple[int, int]] = []
+    monkeypatch.setattr(compiled, "march", lambda *size: asked.append(size))
+    Omega, gamma = forcings(WORTH_COMPILING)
+    sweep(BEAM, Omega=Omega[1:50], gamma=gamma[1:50])
+    assert not asked
+    few = sweep(BEAM, Omega=Omega, gamma=gamma)
+    assert asked == [(3, 1)]
+    # and without a compiler numpy does the work
+    assert np.all(np.isfinite(few.coefficients))
+
+
+@needs_compiler
+def test_a_compiler_is_never_required(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    compiled.march.cache_clear()
+    assert compiled.march(2, 1) is not None
+    (built,) = (tmp_path / "floquet-crosscheck").iterdir()
+    compiled.march.cache_clear()
+    assert compiled.march(2, 1) is not None
+    assert [built] == list((tmp_path / "floquet-crosscheck").iterdir())
+
+    def refused(*, CC: str | None, folder: Path) -> None:
+        compiled.march.cache_clear()
+        monkeypatch.setenv("XDG_CACHE_HOME", str(folder))
+        if CC is None:
+            monkeypatch.setattr(compiled.shutil, "which", lambda _: None)
+        else:
+            monkeypatch.setenv("CC", CC)
+        one = HillEquation(F=[[1.0]], G=[[1.0]], gamma=0.1, Omega=1.0)
+        with pytest.raises(ValueError, match="no working C compiler"):
+            polynomials([one], kernel="compiled")
+        assert polynomials([one]).errors[0] < 1e-13
+
+    blocked = tmp_path / "a file"
+    blocked.write_text("")
+    refused(CC="cc", folder=blocked)  # nowhere to keep it
+    failing = tmp_path / "cc"
+    failing.write_text('#!/bin/sh\n[ "$1" = --version ]\n')
+    failing.chmod(0o700)
+    refused(CC=str(failing), folder=tmp_path / "other")
+    assert not list((tmp_path / "other" / "floquet-crosscheck").iterdir())
+    refused(CC=None, folder=tmp_path)
+    compiled.march.cache_clear()
+
+
+def test_growth_bound_is_one() -> None:
+    matrices = np.random.default_rng(2).exponential(size=(200, 6, 6)) ** 3
+    ratio = growth_bound(matrices) / perron(matrices)
+    assert ratio.min() > 1.0 - 1e-14
+    # measured 1.1; a loose one only sends a point to `monodromy` that need not go there
+    assert np.median(ratio) < 1.3
+
+
 def test_refusals() -> None:
+    with pytest.raises(ValueError, match=r"Omega = -1\.0: must be finite and greater than 0"):
+        sweep(BEAM, Omega=[1.0, -1.0], gamma=0.1)
+    with pytest.raises(ValueError, match="gamma = nan: must be finite"):
+        sweep(BEAM, Omega=1.0, gamma=np.nan)
+    with pytest.raises(ValueError, match="kernel = 'fast': must be one of"):
+        sweep(BEAM, Omega=1.0, gamma=0.1, kernel="fast")  # type: ignore[arg-type]
+    free = HillEquation(F=[[1.0]], G=[[1.0]], gamma=0.1, Omega=1.0, H=[[[1.0]]], omega_L=2.0)
+    with pytest.raises(ValueError, match="H: must be absent"):
+        sweep(free, Omega=1.0, gamma=0.1)
     other = HillEquation(F=[[1.0]], G=[[1.0]], gamma=0.1, Omega=1.0)
     with pytest.raises(ValueError, match="same number of coordinates"):
         polynomials([BEAM, other])
