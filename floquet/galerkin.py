@@ -5,6 +5,7 @@ the modes is not used, and the axial force of the stepped bar is solved for nume
 """
 
 from collections.abc import Callable
+from functools import cache
 from itertools import pairwise
 
 import numpy as np
@@ -182,10 +183,17 @@ def _rule(wavenumber: float, step: float) -> tuple[Array, Array]:
     ]
     edges = np.unique(np.concatenate(panels))
     half = 0.5 * np.diff(edges)[:, np.newaxis]
-    node, weight = np.polynomial.legendre.leggauss(POINTS)
+    node, weight = _gauss()
     return (edges[:-1, np.newaxis] + half * (1.0 + node)).ravel(), (half * weight).ravel()
 
 
+@cache
+def _gauss() -> tuple[Array, Array]:
+    node, weight = np.polynomial.legendre.leggauss(POINTS)
+    return node, weight
+
+
+@cache
 def _roots(count: int) -> Array:
     """lambda_n of cos x = 1/cosh x, as (n + 1/2) pi + d so that d is found to full precision."""
 

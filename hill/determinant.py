@@ -18,7 +18,7 @@ order (`log_pair_tail`). What is left falls like M^-5 or faster, and is extrapol
 """
 
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, cached_property
 from typing import Any
 
 import numpy as np
@@ -57,7 +57,7 @@ class Blocks:
         """The highest harmonic."""
         return max(self.B, default=0)
 
-    @property
+    @cached_property
     def squares(self) -> Complex:
         """The squares w^2 of the constant system's frequencies: eigenvalues of Fbar."""
         return np.asarray(np.linalg.eigvals(self.Fbar), complex)
@@ -155,27 +155,28 @@ def _finite(system: Blocks, alpha: Complex, M: int) -> tuple[Complex, NDArray[np
         if p <= reach:
             put(p, B)
             put(-p, B)
-    mantissa, exponent = np.empty(len(alpha), complex), np.empty(len(alpha), int)
+    pivots, signs = np.empty((len(alpha), size), complex), np.ones(len(alpha))
     for i, a in enumerate(alpha):
         table = band.copy()
         table[2 * width] -= ((a + m) ** 2 / scale)[:, None]
-        lu, pivots, _ = zgbtrf(table.reshape(-1, size), width, width)
-        swaps = np.count_nonzero(pivots != np.arange(size))
-        product, exponent[i] = _product(lu[2 * width])
-        mantissa[i] = (-1) ** swaps * product
-    return mantissa, exponent
+        lu, rows, _ = zgbtrf(table.reshape(-1, size), width, width, overwrite_ab=True)
+        pivots[i] = lu[2 * width]
+        signs[i] = (-1.0) ** np.count_nonzero(rows != np.arange(size))
+    mantissa, exponent = _products(pivots)
+    return signs * mantissa, exponent
 
 
-def _product(factors: Complex) -> tuple[complex, int]:
-    """Product of many factors as a mantissa and a power of two, so that nothing overflows."""
-    exponent = 0
-    while len(factors) > 1:
+def _products(factors: Complex) -> tuple[Complex, NDArray[np.int_]]:
+    """Product of each row as a mantissa and a power of two, so that nothing overflows."""
+    count = len(factors)
+    exponent = np.zeros(count, int)
+    while factors.shape[1] > 1:
         # groups of 16 factors in [1/2, 1) stay above 2**-16
-        padded = np.append(factors, np.ones(-len(factors) % 16))
+        padded = np.hstack([factors, np.ones((count, -factors.shape[1] % 16))])
         shifts = np.frexp(np.abs(padded))[1]
-        exponent += int(shifts.sum())
-        factors = np.prod((padded * np.ldexp(1.0, -shifts)).reshape(-1, 16), axis=1)
-    return complex(factors[0]), exponent
+        exponent += shifts.sum(axis=1)
+        factors = np.prod((padded * np.ldexp(1.0, -shifts)).reshape(count, -1, 16), axis=2)
+    return factors[:, 0], exponent
 
 
 def log_block_tail(squares: Complex, alpha: Complex, M: int) -> Complex:
@@ -212,22 +213,16 @@ def log_pair_tail(system: Blocks, alpha: Complex, M: int) -> Complex:
     Euler and Maclaurin's midpoint rule; the first term it drops is (7/5760) f''', less than
     1e-13 |B|^2 for every M of `least_truncation`, and it too is extrapolated away.
     """
-    total = np.zeros(len(alpha), complex)
+    total = np.zeros(2 * len(alpha), complex)
     t, weight = _gauss()
     identity = np.eye(system.n)
-
-    def resolvent(s: Complex) -> Complex:
-        return np.linalg.inv(system.Fbar - (s * s)[..., None, None] * identity)
-
+    ends = np.concatenate([alpha, -alpha])
     for p, B in system.B.items():
-
-        def f(y: Complex, p: int = p, B: Float = B) -> Complex:
-            """A pair centred at y."""
-            left, right = resolvent(y - 0.5 * p) @ B, resolvent(y + 0.5 * p) @ B
-            return np.einsum("...jk,...kj->...", left, right)
-
-        for end in (alpha, -alpha):
-            edge = end + (M + 0.5 - 0.5 * p)  # halfway between the last pair kept and the next
-            far = f(np.divide.outer(edge, t)) / t**2 @ weight * edge  # integral from edge to oo
-            total -= far + (f(edge + 0.5) - f(edge - 0.5)) / 24.0
-    return total
+        edge = ends + (M + 0.5 - 0.5 * p)  # halfway between the last pair kept and the next
+        # centres of pairs: the integral from the edge to infinity, and the edge's two neighbours
+        y = np.column_stack([np.divide.outer(edge, t), edge + 0.5, edge - 0.5])
+        s = np.array([y - 0.5 * p, y + 0.5 * p])
+        left, right = np.linalg.inv(system.Fbar - (s * s)[..., None, None] * identity) @ B
+        f = np.einsum("...jk,...kj->...", left, right)
+        total -= f[:, :NODES] / t**2 @ weight * edge + (f[:, -2] - f[:, -1]) / 24.0
+    return total[: len(alpha)] + total[len(alpha) :]

@@ -66,4 +66,4 @@ def sine_integral(
 
 def _sinc(x: complex) -> complex:
     """sin(x)/x."""
-    return complex(np.sinc(x / np.pi))
+    return complex(np.sin(x) / x) if x != 0 else 1.0 + 0j

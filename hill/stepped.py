@@ -3,6 +3,7 @@
 All three matrices are over lambda_1**4 and in the order q_1..q_N, q_B, q_A of Eq. (5.4.3).
 """
 
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -16,13 +17,13 @@ Float = NDArray[np.floating[Any]]
 
 def mass(modes: int, xi_c: float, area_ratio: float) -> Float:
     """A of Eq. (5.4.3), over lambda_1**4: integral of A(xi)/A_2 w_j w_k, symmetric."""
-    shapes = [mode(n) for n in range(1, modes + 1)]
-    return area_ratio * _mass_part(shapes, 0.0, xi_c) + _mass_part(shapes, xi_c, 1.0)
+    return area_ratio * _mass_part(modes, 0.0, xi_c) + _mass_part(modes, xi_c, 1.0)
 
 
-def _mass_part(shapes: list[Exponentials], a: float, b: float) -> Float:
+@lru_cache(maxsize=512)
+def _mass_part(modes: int, a: float, b: float) -> Float:
     """Integrals of w_j w_k over [a, b] for w = phi_1..phi_N, xi, 1."""
-    modes = len(shapes)
+    shapes = [mode(n) for n in range(1, modes + 1)]
     table = np.empty((modes + 2, modes + 2))
     for j, f in enumerate(shapes):
         for k in range(j + 1):
@@ -32,19 +33,26 @@ def _mass_part(shapes: list[Exponentials], a: float, b: float) -> Float:
     table[-2, -2] = (b**3 - a**3) / 3.0
     table[-2, -1] = table[-1, -2] = (b**2 - a**2) / 2.0
     table[-1, -1] = b - a
+    table.setflags(write=False)
     return table
 
 
 def bending(modes: int, xi_c: float, inertia_ratio: float) -> Float:
     """First term of B, Eq. (5.4.4), over lambda_1**4: integral of I(xi)/I_2 w_j'' w_k''."""
+    ahead, behind = _bends(modes, 0.0, xi_c), _bends(modes, xi_c, 1.0)
+    return (inertia_ratio * ahead + behind) / eigenvalue(1) ** 4
+
+
+@lru_cache(maxsize=512)
+def _bends(modes: int, a: float, b: float) -> Float:
+    """Integrals of w_j'' w_k'' over [a, b]."""
     bends = [curvature(n) for n in range(1, modes + 1)]
     table = np.zeros((modes + 2, modes + 2))
     for j, f in enumerate(bends):
         for k in range(j + 1):
-            both = f * bends[k]
-            value = inertia_ratio * integral(both, 0.0, xi_c) + integral(both, xi_c, 1.0)
-            table[j, k] = table[k, j] = value
-    return table / eigenvalue(1) ** 4
+            table[j, k] = table[k, j] = integral(f * bends[k], a, b)
+    table.setflags(write=False)
+    return table
 
 
 def thrust(
@@ -58,19 +66,34 @@ def thrust(
 ) -> Float:
     """The T0 terms of B (sigma = 0) and C, Eqs. (5.4.4) and (5.4.5), over lambda_1**4."""
     shapes = [mode(n) for n in range(1, modes + 1)]
-    slopes = [f.derivative for f in shapes] + [UNIT, ZERO]
+    slopes = _slopes(modes)
     nu = np.pi * sigma
     whole, step = force_distribution(nu, xi_c, area_ratio)
-    axial = np.empty((modes + 2, modes + 2))
-    for j, f in enumerate(slopes):
-        for k in range(j + 1):
-            both = f * slopes[k]
-            value = whole * sine_integral(both, nu)
-            value += step * sine_integral(both, nu, xi_c, xi_c, 1.0)
-            axial[j, k] = axial[k, j] = value.real
+    axial = whole * _pairs(modes, nu, 0.0) + step * _pairs(modes, nu, xi_c)
     arm = np.array([f(1.0) for f in shapes] + [1.0, 1.0])
     side = np.array([f(1.0) + K_theta * f(xi_G) for f in slopes])
     return (T0 / eigenvalue(1) ** 4) * (np.outer(arm, side) - axial)
+
+
+def _slopes(modes: int) -> list[Exponentials]:
+    return [mode(n).derivative for n in range(1, modes + 1)] + [UNIT, ZERO]
+
+
+@lru_cache(maxsize=64)
+def _products(modes: int) -> dict[tuple[int, int], Exponentials]:
+    """w_j' w_k' for j >= k."""
+    slopes = _slopes(modes)
+    return {(j, k): slopes[j] * slopes[k] for j in range(modes + 2) for k in range(j + 1)}
+
+
+@lru_cache(maxsize=512)
+def _pairs(modes: int, nu: float, start: float) -> Float:
+    """Integrals over [start, 1] of sin(nu (xi - start))/nu w_j' w_k'."""
+    table = np.empty((modes + 2, modes + 2))
+    for (j, k), both in _products(modes).items():
+        table[j, k] = table[k, j] = sine_integral(both, nu, start, start, 1.0).real
+    table.setflags(write=False)
+    return table
 
 
 def force_distribution(nu: float, xi_c: float, area_ratio: float) -> tuple[float, float]:

@@ -4,6 +4,7 @@ Rows and columns 0..N-1 are the bending modes phi_1..phi_N, row and column N is 
 The corrections are argued one by one in ``compare/data/errata.toml``.
 """
 
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -30,9 +31,8 @@ def pulsating(modes: int, T0: float, K_theta: float, xi_G: float, sigma: complex
 
 def free_vibration(modes: int, T0: float, gamma: float, sigma: float, s: int) -> Float:
     """H_s of Eqs. (4.5.27) to (4.5.30) for zero initial displacement and velocity."""
-    slopes = [slope(n) for n in range(1, modes + 1)] + [UNIT]
     nu = s * np.pi
-    weight = np.real(_pairs(slopes, nu)) * nu
+    weight = np.real(_pairs(modes, nu)) * nu
     return -_scale(modes, T0) * start_amplitude(gamma, sigma, s) * weight
 
 
@@ -53,11 +53,11 @@ def stiffness(modes: int) -> Float:
 def _thrust(modes: int, T0: float, K_theta: float, xi_G: float, nu: complex) -> Float:
     """All terms in T0, for the axial force Phi(xi) = sin(nu xi)/sin(nu) (xi where nu = 0)."""
     shapes = [mode(n) for n in range(1, modes + 1)]
-    slopes = [f.derivative for f in shapes] + [UNIT]
+    slopes = _slopes(modes)
     phi_1 = np.array([f(1.0) for f in shapes])
     # the follower thrust, along the tangent at the end, and its gimbal angle K_theta psi_G
     side = np.array([f(1.0) + K_theta * f(xi_G) for f in slopes])
-    axial = np.real(_pairs(slopes, nu) / np.sinc(nu / np.pi))  # integral of Phi w_j' w_k'
+    axial = np.real(_pairs(modes, nu) / np.sinc(nu / np.pi))  # integral of Phi w_j' w_k'
 
     # bending rows (4.5.19, 4.5.20, 4.5.23, 4.5.24), in which phi_j(1) carries the side force;
     # rotation row (4.5.21, 4.5.22, 4.5.25, 4.5.26), in which 1/2 is left of xi = 1 once the
@@ -66,13 +66,24 @@ def _thrust(modes: int, T0: float, K_theta: float, xi_G: float, nu: complex) -> 
     return _scale(modes, T0) * (np.outer(arm, side) - axial)
 
 
-def _pairs(slopes: list[Exponentials], nu: complex) -> NDArray[np.complex128]:
-    """Integrals of sin(nu xi)/nu w_j' w_k', a symmetric matrix."""
-    size = len(slopes)
-    table = np.empty((size, size), complex)
-    for j in range(size):
-        for k in range(j + 1):
-            table[j, k] = table[k, j] = sine_integral(slopes[j] * slopes[k], nu)
+def _slopes(modes: int) -> list[Exponentials]:
+    return [slope(n) for n in range(1, modes + 1)] + [UNIT]
+
+
+@lru_cache(maxsize=64)
+def _products(modes: int) -> dict[tuple[int, int], Exponentials]:
+    """w_j' w_k' for j >= k."""
+    slopes = _slopes(modes)
+    return {(j, k): slopes[j] * slopes[k] for j in range(modes + 1) for k in range(j + 1)}
+
+
+@lru_cache(maxsize=512)
+def _pairs(modes: int, nu: complex) -> NDArray[np.complex128]:
+    """Integrals of sin(nu xi)/nu w_j' w_k', a symmetric matrix; T0, K_theta and xi_G share it."""
+    table = np.empty((modes + 1, modes + 1), complex)
+    for (j, k), both in _products(modes).items():
+        table[j, k] = table[k, j] = sine_integral(both, nu)
+    table.setflags(write=False)
     return table
 
 
