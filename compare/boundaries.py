@@ -23,6 +23,8 @@ Pair = tuple[float, float]
 # Half window over the half width expected, and what is added for the shift of the centre, which is
 # of second order: this share of gamma^2 Omega.
 REACH, SHIFT = 2.0, 0.3
+# How often the window is doubled before an instability's edges are given up.
+WIDER = 3
 # The window keeps to Omega above this share of the resonance.
 LOWEST = 0.4
 # Points added towards the tip of a tongue, as squares of these shares of a step: edges meet there
@@ -116,9 +118,20 @@ class Cutter:
         if not Omega > 0.0:
             return None
         equation = self.family.equation(Omega, y)
-        width, eta = half_width(self.resonance, equation), equation.damping
+        width, undamped = (half_width(self.resonance, equation, damped=d) for d in (True, False))
         low, high = expected or (-width, width)
-        reach = REACH * max(width, 0.5 * (high - low)) + SHIFT * equation.gamma**2 * Omega
+        reach = REACH * max(undamped, 0.5 * (high - low)) + SHIFT * equation.gamma**2 * Omega
+        for _ in range(WIDER):
+            section = self._within(y, Omega, (low, high), reach, equation.damping)
+            # unstable, but edges out of sight: the tongue is wider than first order makes it
+            if section.edges is not None or section.depth >= 0.0:
+                break
+            reach *= 2.0
+        return section
+
+    def _within(self, y: float, Omega: float, guess: Pair, reach: float, eta: float) -> Section:
+        """What is seen in a window that reaches this far to either side of the guess's middle."""
+        low, high = guess
         centre = Omega + 0.5 * (low + high)
         lo, hi = max(centre - reach, LOWEST * Omega), centre + reach
         P = interpolate_in_Omega(lambda x: self.family.along(x, y), lo, hi)
@@ -194,6 +207,8 @@ def _continued(before: list[Section], y: float) -> Pair | None:
     if len(before) < 2:
         return before[0].offsets if before else None
     first, last = before[-2:]
+    if last.y == first.y:  # a tip upon a station
+        return last.offsets
     t = min(1.0, (y - last.y) / (last.y - first.y))
     low, high = (b + t * (b - a) for a, b in zip(first.offsets, last.offsets, strict=True))
     return (low, high) if low < high else last.offsets

@@ -115,6 +115,34 @@ def indicator(kind: str, P: Float, Omega: Float, eta: float = 0.0) -> Float:
     return np.asarray(np.prod((z[:, j] - z[:, k]) ** 2, axis=1).real)
 
 
+def edge_function(kind: str, P: Float, Omega: Float, eta: float | Float = 0.0) -> Float:
+    """A function that is smooth in P and Omega and vanishes on the edges of this kind.
+
+    "+1", "-1": P(c) and P(-c), c = cosh(pi eta/Omega). "discriminant": over all pairs of z, the
+    product of what is zero where x +- i y with x + i y + x - i y = z_i + z_j lie on the ellipse
+    R = exp(pi eta/Omega), that is x^2/c^2 + y^2/s^2 = 1, s = sinh(pi eta/Omega). It is symmetric in
+    the z, so a polynomial in P's coefficients; undamped it is the discriminant, up to a factor.
+
+    Parameters
+    ----------
+    kind : {"+1", "-1", "discriminant"}
+    P : (k, n + 1) ndarray
+    Omega : (k,) ndarray
+    eta : float or (k,) ndarray, optional
+    """
+    c, s = np.cosh(np.pi * eta / Omega), np.sinh(np.pi * eta / Omega)
+    if kind != "discriminant":
+        at = c if kind == "+1" else -c
+        value = np.zeros_like(at)
+        for coefficient in P.T:
+            value = value * at + coefficient
+        return np.asarray(value)
+    z = roots(P)
+    i, j = np.triu_indices(z.shape[1], 1)
+    x, y2 = 0.5 * (z[:, i] + z[:, j]), -0.25 * (z[:, i] - z[:, j]) ** 2
+    return np.asarray(np.prod((s / c)[:, None] ** 2 * x**2 + y2 - s[:, None] ** 2, axis=1).real)
+
+
 def deepest(f: Function, lo: float, hi: float) -> tuple[float, float]:
     """Where f is least in the window, and its value there; by ever finer grids."""
     centre, value, left, right = lo, np.inf, lo, hi

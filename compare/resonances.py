@@ -83,11 +83,12 @@ def modal(equation: HillEquation) -> tuple[Complex, Complex]:
     return frequencies[order], np.linalg.solve(modes, equation.G @ modes)
 
 
-def half_width(resonance: Resonance, equation: HillEquation) -> float:
+def half_width(resonance: Resonance, equation: HillEquation, *, damped: bool = True) -> float:
     """Hsu's half width in Omega, to first order in gamma; 0 where there is no instability.
 
     gamma |G_ii|/(2 omega_i) at 2 omega_i; (gamma/2) sqrt(+-G_ij G_ji/(omega_i omega_j)) at the sum
-    or the difference; damping eta takes it to sqrt(width**2 - eta**2). Orders above 1 are narrower.
+    or the difference; damping eta takes it to sqrt(width**2 - eta**2), unless `damped` is false.
+    Orders above 1 are narrower.
 
     References
     ----------
@@ -97,5 +98,5 @@ def half_width(resonance: Resonance, equation: HillEquation) -> float:
     frequencies, G = modal(equation)
     i, j = resonance.i, resonance.j
     product = resonance.sign * (G[i, j] * G[j, i] / (frequencies[i] * frequencies[j])).real
-    square = 0.25 * equation.gamma**2 * product - equation.damping**2
+    square = 0.25 * equation.gamma**2 * product - (equation.damping**2 if damped else 0.0)
     return float(np.sqrt(square)) if square > 0.0 else 0.0

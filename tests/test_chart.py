@@ -10,7 +10,8 @@ import pytest
 
 from compare.__main__ import main
 from compare.charts import chebyshev, surface
-from compare.charts.compute import Chart, chart, evaluate
+from compare.charts.compute import Chart, chart
+from compare.charts.surface import evaluate
 from compare.charts.tongues import tongues
 from compare.resonances import half_width
 from floquet import monodromy
@@ -43,7 +44,7 @@ def test_every_second_point_of_a_finer_set_is_there() -> None:
 def test_interpolant_is_within_its_bound_of_either_route(wide: Chart) -> None:
     rng = np.random.default_rng(11)
     Omega, gamma = rng.uniform(0.35, 6.0, 60), rng.uniform(0.0, 0.5, 60)
-    P = evaluate(wide.surface, np.column_stack([1.0 / Omega, gamma]))
+    P, _ = evaluate(wide.surface, np.column_stack([1.0 / Omega, gamma]))
     for k in range(60):
         c = characteristic(BEAM.equation(Omega[k], gamma[k]))
         m = monodromy(galerkin(BEAM, Omega[k], gamma[k]))

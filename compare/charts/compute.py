@@ -7,11 +7,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
-from compare.charts import chebyshev, surface
+from compare.charts import chebyshev, nodes, surface
 from compare.charts.nodes import ROUTES, Nodes
 from compare.charts.parameters import Axis, Beam, Family
+from compare.charts.points import Points, largest_error, solve
 from compare.workers import MapLike, mapper
 from floquet.batch import polynomials
 from hill import checks
@@ -21,6 +22,9 @@ Float = NDArray[np.floating[Any]]
 
 CHECKS = 40
 """Random points at which every chart is held against direct evaluation."""
+
+DIRECT = 4096
+"""Points evaluated together where there is no series."""
 
 # The charts' own smallest useful tolerance: P itself is known to about 1e-13.
 LEAST_TOLERANCE = 1e-13
@@ -45,8 +49,10 @@ class Chart:
     disagreement : float
         Largest difference between the two routes at the nodes, over the largest coefficient of P;
         nan where only one route was asked.
-    nodes : int
-        Evaluations of P.
+    sampled : (nodes, axes) ndarray
+        Where P was evaluated.
+    apart : (nodes,) ndarray
+        Difference between the two routes there, as `disagreement`.
     direct : int
         Grid points evaluated one by one, where no series would converge.
     resumed : int
@@ -65,12 +71,37 @@ class Chart:
     error: float
     checked: float
     disagreement: float
-    nodes: int
+    sampled: Float
+    apart: Float
     direct: int
     resumed: int
     route: str
     surface: surface.Surface
     seconds: float
+
+    @property
+    def nodes(self) -> int:
+        """Evaluations of P."""
+        return len(self.sampled)
+
+    def at(self, **values: ArrayLike) -> Points:
+        """z, R, T and the verdict at any points within the axes.
+
+        Parameters
+        ----------
+        **values : array_like
+            One for each axis, by its name; broadcast against each other to k points.
+
+        Raises
+        ------
+        ValueError
+            An axis without values, a name that is no axis, a value beyond its ends.
+        """
+        return _at(self, values)
+
+    def unstable(self) -> NDArray[np.bool_]:
+        """Where on the grid T exceeds what its error could explain, like `T`."""
+        return _unstable(self)
 
 
 def chart(
@@ -103,7 +134,7 @@ def chart(
     resume : path, optional
         A file of finished nodes: read if it is there, and kept up to date while nodes arrive.
     progress : callable, optional
-        Called with the number of nodes just finished.
+        Called with the number of nodes just finished, after they are on disk.
 
     Returns
     -------
@@ -125,50 +156,42 @@ def chart(
     if checks.number("tolerance", tolerance) < LEAST_TOLERANCE:
         raise ValueError(f"tolerance = {tolerance:g}: must be at least {LEAST_TOLERANCE:g}")
 
-    low = np.array([axis.span[0] for axis in drawn])
-    high = np.array([axis.span[1] for axis in drawn])
+    low, high = np.array([axis.span for axis in drawn]).T
     with mapper(workers) as run:
-        nodes = Nodes(family, drawn, route, run, Path(resume) if resume else None)
-        fitted = surface.fit(nodes, low, high, tolerance, progress)
+        sampler = Nodes(family, drawn, route, run, Path(resume) if resume else None, progress)
+        fitted = surface.fit(sampler, low, high, tolerance)
     T, direct = _grid(fitted, drawn, family)
+    smooth, apart = sampler.sampled
     return Chart(
         axes=drawn,
         family=family,
         T=T,
         error=fitted.error,
         checked=_check(fitted, drawn, family),
-        disagreement=nodes.disagreement if route == "both" else float("nan"),
-        nodes=fitted.nodes,
+        disagreement=sampler.disagreement if route == "both" else float("nan"),
+        sampled=_from_smooth(drawn, smooth),
+        apart=apart,
         direct=direct,
-        resumed=nodes.resumed,
+        resumed=sampler.resumed,
         route=route,
         surface=fitted,
         seconds=time.perf_counter() - started,
     )
 
 
-def evaluate(fitted: surface.Surface, smooth: Float) -> Float:
-    """P at scattered points: smooth coordinates (k, axes) to (n + 1, k); nan beyond the series."""
-    size = next((len(p.series) for p in fitted.pieces if p.series is not None), 0)
-    P = np.full((size + 1, len(smooth)), np.nan)
-    for piece in fitted.pieces:
-        inside = np.all((smooth >= piece.low) & (smooth <= piece.high), axis=1)
-        if piece.series is not None and np.any(inside):
-            local = _local(piece, smooth[inside])
-            P[0, inside] = 1.0
-            P[1:, inside] = chebyshev.at_points(piece.series, tuple(local.T))
-    return P
+def _to_smooth(axes: tuple[Axis, ...], values: Float) -> Float:
+    return np.column_stack([a.to_smooth(x) for a, x in zip(axes, values.T, strict=True)])
 
 
-def _local(piece: surface.Piece, smooth: Float) -> Float:
-    return np.clip((2.0 * smooth - piece.low - piece.high) / (piece.high - piece.low), -1.0, 1.0)
+def _from_smooth(axes: tuple[Axis, ...], smooth: Float) -> Float:
+    return np.column_stack([a.from_smooth(x) for a, x in zip(axes, smooth.T, strict=True)])
 
 
 def _grid(fitted: surface.Surface, axes: tuple[Axis, ...], family: Family) -> tuple[Float, int]:
     """T on the whole grid, the last axis of the chart first."""
     points = [axis.points for axis in axes]
     smooth = [axis.to_smooth(x) for axis, x in zip(axes, points, strict=True)]
-    T = np.full([len(x) for x in points], np.nan)
+    log_R = np.full([len(x) for x in points], np.nan)
     direct = 0
     for piece in fitted.pieces:
         chosen = [
@@ -177,61 +200,97 @@ def _grid(fitted: surface.Surface, axes: tuple[Axis, ...], family: Family) -> tu
         ]
         if any(len(index) == 0 for index in chosen):
             continue
-        where = np.ix_(*chosen)
-        shape = tuple(len(index) for index in chosen)
+        own = [s[i] for s, i in zip(smooth, chosen, strict=True)]
+        shape = tuple(map(len, own))
         if piece.series is None:
-            T[where] = _direct([x[i] for x, i in zip(points, chosen, strict=True)], axes, family)
-            direct += int(np.prod(shape))
-            continue
-        local = tuple(
-            np.clip((2.0 * s[i] - a - b) / (b - a), -1.0, 1.0)
-            for s, i, a, b in zip(smooth, chosen, piece.low, piece.high, strict=True)
-        )
-        P = chebyshev.on_grid(piece.series, local)
-        P = np.concatenate([np.ones((1, *shape)), P]).reshape(len(P) + 1, -1)
-        T[where] = growth(P).reshape(shape)
-    return _argument(T, axes, family), direct
+            mesh = np.stack([m.ravel() for m in np.meshgrid(*own, indexing="ij")], axis=1)
+            P = _direct(mesh, axes, family)[0]
+            direct += len(mesh)
+        else:
+            ends = zip(own, piece.low, piece.high, strict=True)
+            local = (np.clip((2.0 * s - a - b) / (b - a), -1.0, 1.0) for s, a, b in ends)
+            P = chebyshev.on_grid(piece.series, tuple(local))
+            P = np.concatenate([np.ones((1, *shape)), P]).reshape(len(P) + 1, -1)
+        log_R[np.ix_(*chosen)] = _log_R(P).reshape(shape)
+    return _argument(log_R, axes, family), direct
+
+
+def _log_R(P: Float) -> Float:
+    """Ln R of each P, (n + 1, k); infinite where there is no P, the force being so."""
+    there = np.isfinite(P[0])
+    result = np.full(P.shape[1], np.inf)
+    result[there] = growth(P[:, there])
+    return result
 
 
 def _argument(log_R: Float, axes: tuple[Axis, ...], family: Family) -> Float:
     """T = (Omega/pi) ln R - eta (7.1.1) on the grid, turned so that x comes last."""
-    given: dict[str, Any] = {"eta": 0.0} | dict(family.forcing)
-    for k, axis in enumerate(axes):
-        if axis.name in ("Omega", "eta"):
-            shape = [1] * len(axes)
-            shape[k] = -1
-            given[axis.name] = axis.points.reshape(shape)
-    T = log_R * (given["Omega"] / np.pi) - given["eta"]
-    return np.asarray(np.transpose(T))
+    grid = np.ix_(*(axis.points for axis in axes))
+    varied = {axis.name: x for axis, x in zip(axes, grid, strict=True)}
+    Omega, eta = _forcing(varied, family)
+    return np.asarray(np.transpose(log_R * (Omega / np.pi) - eta))
 
 
-def _direct(points: list[Float], axes: tuple[Axis, ...], family: Family) -> Float:
-    """Ln R one by one, where the series does not converge."""
-    mesh = [m.ravel() for m in np.meshgrid(*points, indexing="ij")]
-    named = {axis.name: m for axis, m in zip(axes, mesh, strict=True)}
-    shape = [len(x) for x in points]
-    result = np.empty(len(mesh[0]))
-    for i in range(len(result)):
-        one = {name: values[i : i + 1] for name, values in named.items()}
-        try:
-            (equation,) = family.equations(one, closed_form=False)
-            P = polynomials([equation]).coefficients
-            result[i] = growth(P.T)[0]
-        except ValueError:
-            result[i] = np.inf  # an undamped longitudinal resonance: the force is infinite
-    return result.reshape(shape)
+def _forcing(varied: Mapping[str, Float], family: Family) -> tuple[Any, Any]:
+    """Omega and eta, varied or fixed."""
+    given: dict[str, Any] = {"eta": 0.0} | dict(family.forcing) | dict(varied)
+    return given["Omega"], given["eta"]
+
+
+def _direct(smooth: Float, axes: tuple[Axis, ...], family: Family) -> tuple[Float, Float]:
+    """P, (n + 1, k), and its error, where the series does not converge; nan without a P."""
+    parts = np.array_split(smooth, len(smooth) // DIRECT + 1)
+    lines = np.vstack([nodes.evaluate(nodes.Job(family, axes, part, "floquet")) for part in parts])
+    return lines[:, :-2].T, lines[:, -2]
 
 
 def _check(fitted: surface.Surface, axes: tuple[Axis, ...], family: Family) -> float:
     """Largest difference from direct evaluation at random points."""
-    rng = np.random.default_rng(0)
-    low = np.array([axis.span[0] for axis in axes])
-    high = np.array([axis.span[1] for axis in axes])
-    smooth = low + (high - low) * rng.random((CHECKS, len(axes)))
-    P = evaluate(fitted, smooth)
+    low, high = np.array([axis.span for axis in axes]).T
+    smooth = low + (high - low) * np.random.default_rng(0).random((CHECKS, len(axes)))
+    P, _ = surface.evaluate(fitted, smooth)
     known = np.flatnonzero(np.isfinite(P[0])) if len(P) > 1 else np.array([], int)
     if not len(known):
         return 0.0
-    named = {a.name: a.from_smooth(x) for a, x in zip(axes, smooth[known].T, strict=True)}
+    values = _from_smooth(axes, smooth[known])
+    named = {axis.name: x for axis, x in zip(axes, values.T, strict=True)}
     other = polynomials(family.equations(named, closed_form=False))
     return float(np.max(np.abs(P[:, known].T - other.coefficients)))
+
+
+def _at(chart: Chart, values: Mapping[str, ArrayLike]) -> Points:
+    names = [axis.name for axis in chart.axes]
+    if set(values) != set(names):
+        raise ValueError(f"at: needs {', '.join(names)}; got {', '.join(values) or 'nothing'}")
+    arrays = np.broadcast_arrays(*(np.asarray(values[name], float) for name in names))
+    for axis, x in zip(chart.axes, arrays, strict=True):
+        beyond = ~((x >= axis.low) & (x <= axis.high))
+        if np.any(beyond):
+            raise ValueError(
+                f"{axis.name} = {x[beyond].flat[0]:g}: must be from {axis.low:g} to {axis.high:g}"
+            )
+    points = np.column_stack([x.ravel() for x in arrays])
+    smooth = _to_smooth(chart.axes, points)
+    P, error = surface.evaluate(chart.surface, smooth)
+    without = ~np.isfinite(error)
+    if np.any(without):
+        found, own = _direct(smooth[without], chart.axes, chart.family)
+        P = np.full((len(found), len(points)), np.nan) if len(P) == 1 else P
+        P[:, without], error[without] = found, own
+    named = dict(zip(names, points.T, strict=True))
+    Omega, eta = (np.broadcast_to(v, len(points)) for v in _forcing(named, chart.family))
+    return solve(P.T, error, Omega, eta)
+
+
+def _unstable(chart: Chart) -> NDArray[np.bool_]:
+    """Only where T is so small that its error could matter are the roots' discs looked at."""
+    axes = chart.axes
+    grid = dict(zip((a.name for a in axes), np.ix_(*(a.points for a in axes)), strict=True))
+    Omega = np.transpose(np.asarray(_forcing(grid, chart.family)[0]))
+    most = largest_error(chart.family.beam.modes + 1, chart.error) * Omega / np.pi
+    result = np.asarray(chart.T > 0.0) & ~np.isnan(chart.T)
+    close = result & (most >= chart.T)
+    where = np.nonzero(close)
+    points = {a.name: a.points[i] for a, i in zip(axes, where[::-1], strict=True)}
+    result[where] = chart.at(**points).unstable
+    return result

@@ -8,6 +8,7 @@ import numpy as np
 
 from compare.boundaries import Tongue
 from compare.charts.compute import Chart
+from compare.charts.curves import Curve
 from compare.tables import all_rows
 from hill import SteppedBeam, UniformBeam
 
@@ -31,20 +32,38 @@ STYLE: Any = {
 }
 
 
-def picture(chart: Chart, boundaries: Sequence[Tongue], kind: str) -> bytes:
+QUANTITIES = ("T", "disagreement")
+
+LEAST = 1e-17
+"""Where the routes agree to the last bit, a disagreement is drawn as this."""
+
+
+def picture(
+    chart: Chart, boundaries: Sequence[Tongue | Curve], kind: str, quantity: str = "T"
+) -> bytes:
     """The chart as PNG or SVG.
+
+    Parameters
+    ----------
+    chart : Chart
+    boundaries : sequence of Tongue or Curve
+        Drawn as lines; tongues with their names.
+    kind : {"png", "svg"}
+    quantity : {"T", "disagreement"}, optional
+        T over the chart, or how far the two routes differ at its nodes.
 
     Raises
     ------
     ValueError
-        The chart has not two axes, or matplotlib is not installed.
+        The chart has not two axes, or no disagreement to draw; matplotlib is not installed.
     """
     if len(chart.axes) != 2:
         raise ValueError(f"a picture needs two axes, the chart has {len(chart.axes)}")
+    if quantity == "disagreement" and chart.route != "both":
+        raise ValueError(f"disagreement: needs route = 'both', the chart has {chart.route!r}")
     try:
         import matplotlib
         from matplotlib.backends.backend_agg import FigureCanvasAgg
-        from matplotlib.colors import LogNorm
         from matplotlib.figure import Figure
     except ImportError:
         raise ValueError(
@@ -55,28 +74,13 @@ def picture(chart: Chart, boundaries: Sequence[Tongue], kind: str) -> bytes:
         figure = Figure(figsize=(7.2, 4.6), layout="constrained")
         FigureCanvasAgg(figure)
         axes = figure.add_subplot()
-        unstable = np.ma.masked_less_equal(np.where(np.isfinite(chart.T), chart.T, 0.0), 1e-6)
-        extent = (x.low, x.high, y.low, y.high)
-        if unstable.count():
-            top = float(unstable.max())
-            norm = LogNorm(max(top / 300.0, 1e-5), top)
-            shown = axes.imshow(
-                unstable,
-                extent=extent,
-                origin="lower",
-                aspect="auto",
-                cmap="viridis_r",
-                norm=norm,
-                interpolation="none",
-                rasterized=True,
-            )
-            figure.colorbar(shown, ax=axes, pad=0.015, label="$T$, twice the growth exponent")
-        for tongue in boundaries:
-            line: dict[str, Any] = {"color": "black", "linewidth": 0.6}
-            axes.plot(tongue.lower, tongue.y, **line)
-            axes.plot(tongue.upper, tongue.y, **line)
-        _name(axes, boundaries, x.low, x.high, y.low, y.high)
-        _marks(axes, chart)
+        (_growth if quantity == "T" else _disagreement)(figure, axes, chart)
+        for boundary in boundaries:
+            for along, across in _lines(boundary, x.name):
+                axes.plot(along, across, color="black", linewidth=0.6)
+        if quantity == "T":
+            _name(axes, chart, [b for b in boundaries if isinstance(b, Tongue)])
+            _marks(axes, chart)
         axes.set(xlim=(x.low, x.high), ylim=(y.low, y.high))
         axes.set_xlabel(SYMBOLS.get(x.name, x.name))
         axes.set_ylabel(SYMBOLS.get(y.name, y.name))
@@ -87,27 +91,67 @@ def picture(chart: Chart, boundaries: Sequence[Tongue], kind: str) -> bytes:
     return buffer.getvalue()
 
 
-def _name(
-    axes: Any, boundaries: Sequence[Tongue], left: float, right: float, low: float, high: float
-) -> None:
-    """Names of the wider tongues above the frame, no two on top of one another."""
+def _lines(boundary: Tongue | Curve, x: str) -> list[tuple[Any, Any]]:
+    """What to draw of a boundary, whichever axis Omega is."""
+    if isinstance(boundary, Curve):
+        return [(boundary.x, boundary.y)]
+    edges = [(edge, boundary.y) for edge in (boundary.lower, boundary.upper)]
+    return edges if x == "Omega" else [(y, edge) for edge, y in edges]
+
+
+def _growth(figure: Any, axes: Any, chart: Chart) -> None:
+    """T as colour, white where the beam is stable."""
+    from matplotlib.colors import LogNorm
+
+    x, y = chart.axes
+    unstable = np.ma.array(chart.T, mask=~(chart.unstable() & np.isfinite(chart.T)))
+    if unstable.count():
+        top = float(unstable.max())
+        shown = axes.imshow(
+            unstable,
+            extent=(x.low, x.high, y.low, y.high),
+            origin="lower",
+            aspect="auto",
+            cmap="viridis_r",
+            norm=LogNorm(max(top / 300.0, 1e-5), top),
+            interpolation="none",
+            rasterized=True,
+        )
+        figure.colorbar(shown, ax=axes, pad=0.015, label="$T$, twice the growth exponent")
+
+
+def _disagreement(figure: Any, axes: Any, chart: Chart) -> None:
+    """How far the routes differ, at every node."""
+    from matplotlib.colors import LogNorm
+
+    apart = np.maximum(chart.apart, LEAST)
+    shown = axes.scatter(*chart.sampled.T, c=apart, s=7, cmap="magma_r", norm=LogNorm(), lw=0)
+    label = "largest difference of a coefficient of $P(z)$,\nover the largest coefficient"
+    figure.colorbar(shown, ax=axes, pad=0.015, label=label)
+
+
+def _name(axes: Any, chart: Chart, boundaries: Sequence[Tongue]) -> None:
+    """Names of the wider tongues along the far side of the frame, none on top of another."""
+    x, y = chart.axes
+    along, other = (x, y) if x.name == "Omega" else (y, x)
     tops = []
     for tongue in boundaries:
-        pair = tongue.at(high) or tongue.at(float(tongue.y[-1]))
-        if pair and left < sum(pair) / 2 < right:
+        pair = tongue.at(other.high) or tongue.at(float(tongue.y[-1]))
+        if pair and along.low < sum(pair) / 2 < along.high:
             tops.append((pair[1] - pair[0], sum(pair) / 2, tongue.resonance.name))
     taken: list[float] = []
+    upright = along is x
     for _, centre, name in sorted(tops, reverse=True):
-        if all(abs(centre - other) > 0.03 * (right - left) for other in taken):
+        if all(abs(centre - t) > 0.03 * (along.high - along.low) for t in taken):
             taken.append(centre)
             axes.annotate(
                 _math(name),
-                (centre, high),
-                xytext=(0, -3),
+                (centre, other.high) if upright else (other.high, centre),
+                xytext=(0, -3) if upright else (-3, 0),
                 textcoords="offset points",
-                rotation=90,
-                ha="center",
-                va="top",
+                rotation=90 if upright else 0,
+                ha="center" if upright else "right",
+                va="top" if upright else "center",
                 fontsize=6.5,
                 bbox={"boxstyle": "round,pad=0.15", "fc": "white", "ec": "none", "alpha": 0.7},
             )
@@ -120,15 +164,16 @@ def _math(name: str) -> str:
 def _marks(axes: Any, chart: Chart) -> None:
     """The printed rows of Table 1 or 2 that lie on this chart."""
     x, y = chart.axes
-    if (x.name, y.name) != ("Omega", "gamma") or chart.family.forcing.get("eta", 0.0):
+    if {x.name, y.name} != {"Omega", "gamma"} or chart.family.forcing.get("eta", 0.0):
         return
     table = 1 if isinstance(chart.family.beam, UniformBeam) else 2
     for row in all_rows((table,)):
         if row.beam(chart.family.beam.modes) != chart.family.beam:
             return
-        if x.low <= row.Omega <= x.high and y.low <= row.gamma <= y.high:
+        at = [getattr(row, axis.name) for axis in (x, y)]
+        if x.low <= at[0] <= x.high and y.low <= at[1] <= y.high:
             fill = "black" if row.T > 0.0 else "white"
-            axes.plot(row.Omega, row.gamma, "o", ms=2.6, mfc=fill, mec="black", mew=0.5)
+            axes.plot(*at, "o", ms=2.6, mfc=fill, mec="black", mew=0.5)
 
 
 def _title(chart: Chart) -> str:

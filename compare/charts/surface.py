@@ -22,6 +22,9 @@ Sampler = Callable[[Float], tuple[Float, Float]]
 START, MOST = 9, 129
 """Points an axis at first, and at most before the rectangle is cut; 2^k + 1, so that they nest."""
 
+RESOLVED = 1e-2
+"""A series whose last coefficients are below this share of the largest value has begun to decay."""
+
 DEEPEST = 7
 """Cuts of one axis; a piece is then 1/128 of the chart."""
 
@@ -68,7 +71,6 @@ def fit(
     low: Float,
     high: Float,
     tolerance: float,
-    progress: Callable[[int], Any] | None = None,
 ) -> Surface:
     """Cover a rectangle with series whose error is below `tolerance` times the largest |P|.
 
@@ -80,10 +82,8 @@ def fit(
         The rectangle.
     tolerance : float
         Relative to the largest coefficient of P in the piece.
-    progress : callable, optional
-        Called with the number of new evaluations.
     """
-    known = _Known(sample, progress)
+    known = _Known(sample, np.asarray(low, float), np.asarray(high, float))
     pieces: list[Piece] = []
     pending = [(np.asarray(low, float), np.asarray(high, float), (0,) * len(low))]
     while pending:
@@ -102,20 +102,49 @@ def fit(
     return Surface(tuple(pieces), len(known.values))
 
 
+def evaluate(fitted: Surface, smooth: Float) -> tuple[Float, Float]:
+    """P at scattered points, from smooth coordinates (k, axes).
+
+    Returns
+    -------
+    (n + 1, k) ndarray
+        Coefficients, highest power first; nan where there is no series.
+    (k,) ndarray
+        Bound on their error; infinite there.
+    """
+    size = next((len(p.series) for p in fitted.pieces if p.series is not None), 0)
+    P, error = np.full((size + 1, len(smooth)), np.nan), np.full(len(smooth), np.inf)
+    for piece in fitted.pieces:
+        inside = np.all((smooth >= piece.low) & (smooth <= piece.high), axis=1)
+        if piece.series is not None and np.any(inside):
+            local = to_local(piece, smooth[inside])
+            P[0, inside] = 1.0
+            P[1:, inside] = chebyshev.at_points(piece.series, tuple(local.T))
+            error[inside] = piece.error
+    return P, error
+
+
+def to_local(piece: Piece, smooth: Float) -> Float:
+    """Smooth coordinates (..., axes) as coordinates of the piece, in [-1, 1]."""
+    return np.clip((2.0 * smooth - piece.low - piece.high) / (piece.high - piece.low), -1.0, 1.0)
+
+
 def _piece(known: "_Known", a: Float, b: Float, tolerance: float) -> tuple[Piece | None, int]:
     """A series that has decayed, or the axis along which it has not."""
     axes = len(a)
     counts = [START] * axes
     over = tuple(range(1, axes + 1))
+    before: list[tuple[int, float]] = [(0, np.inf)] * axes
     while True:
         grid = [_nodes(a[k], b[k], counts[k]) for k in range(axes)]
         values, errors = known.on(grid)
-        series = chebyshev.coefficients(values, over)
         if not np.all(np.isfinite(values)):
-            return None, 0
+            return None, _across_pole(values)
+        series = chebyshev.coefficients(values, over)
         size = max(1.0, float(np.max(np.abs(values))))
         tails = np.array([chebyshev.decay(series, axis) for axis in over])
-        short = tails > tolerance * size / SAFETY
+        allowed = tolerance * size / SAFETY
+        short = tails > allowed
         if not np.any(short):
             trimmed = _trim(series, 1e-3 * tolerance * size)
             # a series' error is at most the sum over its axes; the nodes' own errors are amplified
@@ -124,10 +153,34 @@ def _piece(known: "_Known", a: Float, b: Float, tolerance: float) -> tuple[Piece
             left = float(np.sum(np.abs(series))) - float(np.sum(np.abs(trimmed)))
             error = SAFETY * float(tails.sum()) + max(left, 0.0) + lebesgue * float(errors.max())
             return Piece(a, b, trimmed, error), 0
-        worst = int(np.argmax(tails * short))
-        if counts[worst] >= MOST:
-            return None, worst
+        shares = tails / size
+        for k in np.flatnonzero(short):
+            if _expected(counts[k], shares[k], before[k], allowed / size) > MOST:
+                return None, int(k)
+            before[k] = (counts[k], float(shares[k]))
         counts = [2 * n - 1 if s and n < MOST else n for n, s in zip(counts, short, strict=True)]
+
+
+def _expected(n: int, tail: float, before: tuple[int, float], allowed: float) -> float:
+    """Points an axis after which a series that decays as it did lately will have decayed.
+
+    A series that has not begun to decay (an oscillation not yet resolved) gets its next points;
+    one that decays too slowly for `MOST` is given up before they are spent.
+    """
+    if n >= MOST:
+        return np.inf
+    if tail > RESOLVED or not tail < before[1] < np.inf:
+        return n
+    rate = np.log(before[1] / tail) / (n - before[0])
+    return float(n + np.log(tail / allowed) / rate)
+
+
+def _across_pole(values: Float) -> int:
+    """The axis along which infinite values are few: a pole runs across it."""
+    infinite = ~np.isfinite(values).all(axis=0)
+    axes = range(infinite.ndim)
+    shares = [infinite.any(axis=tuple(j for j in axes if j != k)).mean() for k in axes]
+    return int(np.argmin(shares))
 
 
 def _trim(series: Float, small: float) -> Float:
@@ -146,25 +199,21 @@ def _nodes(a: float, b: float, n: int) -> Float:
 class _Known:
     """Evaluations so far, so that nested points are not computed twice."""
 
-    def __init__(self, sample: Sampler, progress: Callable[[int], Any] | None) -> None:
-        self.sample, self.progress = sample, progress
+    def __init__(self, sample: Sampler, low: Float, high: Float) -> None:
+        self.sample, self.low, self.high = sample, low, high
         self.values: dict[bytes, tuple[Float, float]] = {}
 
     def on(self, grid: list[Float]) -> tuple[Float, Float]:
         """Coefficients of P below the leading one, on a grid: (n, *grid), and their errors."""
         points = np.stack([m.ravel() for m in np.meshgrid(*grid, indexing="ij")], axis=1)
         # nested points come out of different formulas: equal to twelve digits is the same point
-        keys = [
-            np.round(point, 12 - int(np.log10(abs(point).max() + 1e-300))).tobytes()
-            for point in points
-        ]
+        share = np.round((points - self.low) / (self.high - self.low), 12) + 0.0  # no -0
+        keys = [line.tobytes() for line in share]
         new = [i for i, key in enumerate(keys) if key not in self.values]
         if new:
             found, errors = self.sample(points[new])
             for i, value, error in zip(new, found, errors, strict=True):
                 self.values[keys[i]] = (value[1:], float(error))
-            if self.progress is not None:
-                self.progress(len(new))
         table = np.array([self.values[key][0] for key in keys])
         bounds = np.array([self.values[key][1] for key in keys])
         shape = [len(x) for x in grid]

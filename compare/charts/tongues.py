@@ -12,9 +12,9 @@ from compare.boundaries import Family as Curves
 from compare.boundaries import Tongue, follow
 from compare.charts import chebyshev
 from compare.charts.compute import Chart
-from compare.charts.parameters import with_forcing
+from compare.charts.parameters import Axis, with_forcing
 from compare.charts.surface import Surface
-from compare.resonances import first_order, modal
+from compare.resonances import Resonance, first_order, modal
 from floquet.batch import polynomials
 from hill import HillEquation
 
@@ -23,32 +23,47 @@ Float = NDArray[np.floating[Any]]
 STATIONS = 33
 """Values of y at which the edges are solved for, before those added where a tongue closes."""
 
+SAME = 0.02
+"""Two tongues are one where their edges differ by no more than this share of the width; they are
+compared by straight lines between stations."""
+
 
 @dataclass(frozen=True)
 class OnSurface(Curves):
-    """The chart's interpolant in place of a route: the same P, at a hundredth of the price."""
+    """The chart's interpolant in place of a route: the same P, at a hundredth of the price.
+
+    Attributes
+    ----------
+    surface : Surface
+    along_Omega : int
+        Which of the surface's two axes is Omega's.
+    y_to_smooth : callable
+        The other parameter's smooth variable.
+    """
 
     surface: Surface | None = None
+    along_Omega: int = 0
     y_to_smooth: Callable[[Float], Float] = np.asarray
     sections: dict[tuple[int, float], Float] = field(default_factory=dict)
 
     def along(self, Omega: Float, y: float) -> Float:
         """Coefficients of P at several Omega, (k, n + 1); where there is no series, directly."""
         assert self.surface is not None
+        i, j = self.along_Omega, 1 - self.along_Omega
         u = 1.0 / np.asarray(Omega, float)
         v = float(self.y_to_smooth(np.array(y)))
         found: dict[int, Float] = {}
         for k, piece in enumerate(self.surface.pieces):
-            inside = (u >= piece.low[0]) & (u <= piece.high[0])
-            if piece.series is None or not piece.low[1] <= v <= piece.high[1]:
+            inside = (u >= piece.low[i]) & (u <= piece.high[i])
+            if piece.series is None or not piece.low[j] <= v <= piece.high[j]:
                 continue
             if (k, y) not in self.sections:
-                local = (2.0 * v - piece.low[1] - piece.high[1]) / (piece.high[1] - piece.low[1])
-                row = chebyshev.basis(np.array([local]), piece.series.shape[2])[0]
-                self.sections[k, y] = piece.series @ row
+                local = (2.0 * v - piece.low[j] - piece.high[j]) / (piece.high[j] - piece.low[j])
+                row = chebyshev.basis(np.array([local]), piece.series.shape[1 + j])[0]
+                self.sections[k, y] = np.tensordot(piece.series, row, axes=(1 + j, 0))
             section = self.sections[k, y]
-            local_u = (2.0 * u[inside] - piece.low[0] - piece.high[0]) / (
-                piece.high[0] - piece.low[0]
+            local_u = (2.0 * u[inside] - piece.low[i] - piece.high[i]) / (
+                piece.high[i] - piece.low[i]
             )
             values = section @ chebyshev.basis(local_u, section.shape[1]).T
             found |= {
@@ -66,17 +81,30 @@ class OnSurface(Curves):
         return np.asarray(self.along(np.array([Omega]), y)[0])
 
 
-def tongues(chart: Chart, orders: int = 2) -> tuple[Tongue, ...]:
-    """Boundaries of the instabilities of the first orders over a chart of Omega (x) and y.
+def axes_of(chart: Chart) -> tuple[Axis, Axis]:
+    """Omega's axis and the other one.
 
     Raises
     ------
     ValueError
-        The chart is not one of Omega against a second parameter.
+        The chart is not one of Omega and one other parameter.
     """
-    if len(chart.axes) != 2 or chart.axes[0].name != "Omega":
-        raise ValueError("boundaries: need a chart of Omega (x) against a second parameter (y)")
-    x, y = chart.axes
+    names = [axis.name for axis in chart.axes]
+    if len(names) != 2 or "Omega" not in names:
+        raise ValueError(f"tongues: need a chart of Omega and one other, not of {', '.join(names)}")
+    k = names.index("Omega")
+    return chart.axes[k], chart.axes[1 - k]
+
+
+def on_surface(chart: Chart) -> OnSurface:
+    """The chart's equations, with P from its interpolant.
+
+    Raises
+    ------
+    ValueError
+        As for `axes_of`.
+    """
+    Omega_axis, y = axes_of(chart)
 
     def equation(Omega: float, value: float) -> HillEquation:
         beam, forcing = chart.family.at({"Omega": Omega, y.name: value})
@@ -92,26 +120,84 @@ def tongues(chart: Chart, orders: int = 2) -> tuple[Tongue, ...]:
         model = matrices(value, None if np.isinf(beam.omega_L) else Omega)
         return with_forcing(model, forcing)
 
-    curves = OnSurface(
-        known, lambda e: polynomials([e]).coefficients[0], chart.surface, y.to_smooth
+    return OnSurface(
+        known,
+        lambda e: polynomials([e]).coefficients[0],
+        chart.surface,
+        chart.axes.index(Omega_axis),
+        y.to_smooth,
     )
-    # at gamma = 0 every tongue is a point, and there is nothing to solve for
+
+
+def stations(y: Axis) -> list[float]:
+    """Where the edges are solved for; not at 0, where a tongue in gamma is a point."""
     first = y.low + (y.high - y.low) / 200.0 if y.low == 0.0 else y.low
-    stations = [float(v) for v in np.linspace(first, y.high, STATIONS)]
-    size = equation(x.low, y.high).n
+    return [float(v) for v in np.linspace(first, y.high, STATIONS)]
+
+
+def tongues(
+    chart: Chart, orders: int = 2, progress: Callable[[int, int], Any] | None = None
+) -> tuple[Tongue, ...]:
+    """Boundaries of the instabilities of the first orders over a chart of Omega and another one.
+
+    Parameters
+    ----------
+    chart : Chart
+    orders : int, optional
+        Resonances 2 omega_i/k and (omega_i +- omega_j)/k up to this k.
+    progress : callable, optional
+        Called with how many resonances are done, and how many there are.
+
+    Raises
+    ------
+    ValueError
+        As for `axes_of`.
+    """
+    x, y = axes_of(chart)
+    curves = on_surface(chart)
+    at = stations(y)
+    frequencies = [modal(curves.equation(1.0, v))[0] for v in at]
+    wanted = [
+        replace(resonance, order=order)
+        for resonance in first_order(len(frequencies[0]))
+        for order in range(1, orders + 1)
+    ]
     found: list[Tongue] = []
-    for resonance in first_order(size):
-        for order in range(1, orders + 1):
-            own = replace(resonance, order=order)
-            if not any(x.low <= own.Omega(modal(known(1.0, v))[0]) <= x.high for v in stations):
-                continue
-            for tongue in follow(curves, own, stations):
-                if np.any((tongue.upper >= x.low) & (tongue.lower <= x.high)):
-                    found.append(tongue)
-    return tuple(found)
+    for done, resonance in enumerate(wanted, start=1):
+        found += _one(curves, resonance, at, frequencies, x)
+        if progress is not None:
+            progress(done, len(wanted))
+    return distinct(found)
 
 
-def width(tongue: Tongue, y: float) -> float:
-    """Width in Omega at a value of y; 0 where the tongue is not open."""
-    pair = tongue.at(y)
-    return 0.0 if pair is None else pair[1] - pair[0]
+def distinct(found: list[Tongue]) -> tuple[Tongue, ...]:
+    """Without those whose edges are another's.
+
+    A resonance of higher order that lies within a wide tongue is a guess that leads to its edges.
+    """
+    kept: list[Tongue] = []
+    for tongue in sorted(found, key=lambda t: (t.resonance.order, -len(t.y))):
+        k = int(np.argmax(tongue.upper - tongue.lower))
+        edges, y = np.array([tongue.lower[k], tongue.upper[k]]), float(tongue.y[k])
+        near = SAME * (edges[1] - edges[0])
+        others = [pair for other in kept if (pair := other.at(y)) is not None]
+        if not any(np.abs(edges - pair).max() <= near for pair in others):
+            kept.append(tongue)
+    return tuple(kept)
+
+
+def _one(
+    curves: OnSurface,
+    resonance: Resonance,
+    at: list[float],
+    frequencies: list[Any],
+    x: Axis,
+) -> list[Tongue]:
+    """The pieces of one resonance's boundary that reach into the chart."""
+    if not any(x.low <= resonance.Omega(omega) <= x.high for omega in frequencies):
+        return []
+    return [
+        tongue
+        for tongue in follow(curves, resonance, at)
+        if np.any((tongue.upper >= x.low) & (tongue.lower <= x.high))
+    ]

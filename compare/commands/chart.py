@@ -1,20 +1,27 @@
 """``verify chart``: stability over any two parameters."""
 
 import argparse
-import csv
-import io
-from collections.abc import Callable
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+from rich import box
 from rich.console import Console
 from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
+from rich.table import Table
 
-from compare.charts import specification
+from compare.boundaries import Tongue
+from compare.charts import files, specification
 from compare.charts.compute import Chart, chart
-from compare.charts.draw import picture
+from compare.charts.curves import Curve, curves
+from compare.charts.draw import QUANTITIES, picture
+from compare.charts.instabilities import Instability, instabilities
 from compare.charts.nodes import ROUTES
-from compare.charts.tongues import tongues
+from compare.charts.tongues import axes_of, tongues
+from compare.cluster import connect
+from compare.commands.terminal import terminal
 from compare.output import check_writable, write_whole
 
 SUMMARY = "chart the characteristic argument T over two parameters or more"
@@ -22,7 +29,11 @@ EPILOG = """\
 examples:
   verify chart --x Omega 0.35 6 1000 --y gamma 0 0.5 1000 --output chart.png
   verify chart --x Omega 1.7 1.95 500 --y T0 0 25 500 --set gamma=0.1 --output chart.svg
-  verify chart mine.toml --workers 2 --resume nodes.npz --output chart.npz
+  verify chart --x Omega 0.35 6 1000 --y gamma 0 0.5 1000 --set eta=0.01 --tongues tongues.csv
+  verify chart mine.toml --workers 2 --resume nodes.dat --output chart.npz
+
+A chart of Omega and one other parameter has tongues: --tongues lists them, and a picture draws
+and lists them. On a picture of two others the boundaries are drawn.
 
 The beam is the report's (Table 1, or Table 2 with --beam stepped) but for what --set changes.
 mine.toml:
@@ -45,7 +56,8 @@ mine.toml:
 
 exit status: 0 done; 1 the routes disagree beyond the chart's error; 2 wrong usage or input."""
 
-SUFFIXES = (".png", ".svg", ".npz", ".csv")
+PICTURES = (".png", ".svg")
+SUFFIXES = (*PICTURES, ".npz", ".csv")
 
 
 def configure(p: argparse.ArgumentParser) -> None:
@@ -63,9 +75,19 @@ def configure(p: argparse.ArgumentParser) -> None:
             help="an axis" if axis != "also" else "a third axis (for .npz)",
         )
     p.add_argument("--output", type=Path, metavar="FILE", help="chart.png, .svg, .npz or .csv")
+    p.add_argument(
+        "--show",
+        choices=QUANTITIES,
+        default="T",
+        help="what a picture shows: T, or how far the routes differ at the nodes (default T)",
+    )
+    p.add_argument("--tongues", type=Path, metavar="FILE", help="edges of the tongues, as .csv")
     p.add_argument("--route", choices=ROUTES, default="both", help="who evaluates (default both)")
     p.add_argument("--tolerance", type=float, default=1e-11, help="of P (default 1e-11)")
-    p.add_argument("--workers", type=int, default=1, metavar="N", help="processes (default 1)")
+    p.add_argument(
+        "--workers", type=int, default=1, metavar="N", help="processes, -1 for one a core"
+    )
+    p.add_argument("--cluster", metavar="ADDRESS", help="a Dask scheduler instead (extra cluster)")
     p.add_argument("--resume", type=Path, metavar="FILE", help="keep finished nodes there")
 
 
@@ -74,43 +96,89 @@ def run(options: argparse.Namespace) -> int:
     base = specification.from_file(options.file) if options.file else None
     axes = [axis for axis in (options.x, options.y, options.also) if axis]
     wanted = specification.from_words(options.beam, options.set, axes, base)
-    if options.output is not None:
-        if options.output.suffix not in SUFFIXES:
-            raise ValueError(f"output = {str(options.output)!r}: must end in {', '.join(SUFFIXES)}")
-        check_writable(options.output)
-    if options.resume is not None:
-        check_writable(options.resume)
-    console = Console(stderr=True)
-    with Progress(
-        SpinnerColumn(),
-        TextColumn("{task.completed:.0f} nodes"),
-        TimeElapsedColumn(),
-        console=console,
-        transient=True,
-        disable=not console.is_terminal,
-    ) as bar:
+    _check_files(options)
+    with _bar() as bar:
         task = bar.add_task("nodes", total=None)
-        result = chart(
-            wanted.beam,
-            wanted.axes,
-            forcing=wanted.forcing,
-            route=options.route,
-            tolerance=options.tolerance,
-            workers=options.workers,
-            resume=options.resume,
-            progress=lambda count: bar.advance(task, count),
-        )
-    if options.output is not None:
-        write_whole(options.output, _content(result, options.output.suffix))
+        with _workers(options) as workers:
+            result = chart(
+                wanted.beam,
+                wanted.axes,
+                forcing=wanted.forcing,
+                route=options.route,
+                tolerance=options.tolerance,
+                workers=workers,
+                resume=options.resume,
+                progress=lambda count: bar.advance(task, count),
+            )
+        suffix = options.output.suffix if options.output else ""
+        boundaries: Sequence[Tongue | Curve] = ()
+        found: tuple[Instability, ...] = ()
+        has_tongues = len(result.axes) == 2 and "Omega" in {a.name for a in result.axes}
+        drawn = suffix in PICTURES and options.show == "T"
+        if options.tongues or (has_tongues and drawn):
+            task = bar.add_task("resonances followed", total=None)
+            own = tongues(result, progress=lambda _done, _all: bar.advance(task))
+            found, boundaries = instabilities(result, own), own
+        elif drawn and len(result.axes) == 2:
+            bar.add_task("boundaries", total=None)
+            boundaries = curves(result)
+        if options.output is not None:
+            write_whole(options.output, _content(result, suffix, boundaries, options.show))
+        if options.tongues is not None:
+            write_whole(options.tongues, files.tongues_csv(found, axes_of(result)[1].name))
+    if found:
+        terminal().print(_listed(found, axes_of(result)[1].name))
     for line in describe(result):
         print(line)
     # P's error is absolute, the disagreement relative to P's largest coefficient, 1 or more
     return int(options.route == "both" and result.disagreement > max(result.error, 1e-11))
 
 
+def _check_files(options: argparse.Namespace) -> None:
+    """Refuse what could not be written, before anything is computed."""
+    for name, path, allowed in (
+        ("output", options.output, SUFFIXES),
+        ("tongues", options.tongues, (".csv",)),
+        ("resume", options.resume, None),
+    ):
+        if path is not None:
+            if allowed and path.suffix not in allowed:
+                raise ValueError(f"{name} = {str(path)!r}: must end in {', '.join(allowed)}")
+            check_writable(path)
+
+
+@contextmanager
+def _workers(options: argparse.Namespace) -> Iterator[Any]:
+    if options.cluster is None:
+        yield options.workers
+    else:
+        with connect(options.cluster) as cluster:
+            yield cluster
+
+
+def _bar() -> Progress:
+    console = Console(stderr=True)
+    return Progress(
+        SpinnerColumn(),
+        TextColumn("{task.completed:.0f} {task.description}"),
+        TimeElapsedColumn(),
+        console=console,
+        transient=True,
+        disable=not console.is_terminal,
+    )
+
+
+def _content(result: Chart, suffix: str, boundaries: Sequence[Any], show: str) -> bytes:
+    if suffix == ".npz":
+        return files.npz(result)
+    if suffix == ".csv":
+        return files.as_csv(result)
+    return picture(result, boundaries, suffix[1:], show)
+
+
 def describe(result: Chart) -> list[str]:
     """What was found, in a few lines."""
-    unstable = float(np.mean(result.T > 1e-6))
+    unstable = float(np.mean(result.unstable()))
     size = " x ".join(str(axis.count) for axis in result.axes)
     lines = [
         f"{size} points from {result.nodes} evaluations of P in {result.seconds:.1f} s"
@@ -126,28 +194,21 @@ def describe(result: Chart) -> list[str]:
     return lines
 
 
-def _content(result: Chart, suffix: str) -> bytes:
-    writers: dict[str, Callable[[Chart], bytes]] = {".npz": _npz, ".csv": _csv}
-    if suffix in writers:
-        return writers[suffix](result)
-    two = len(result.axes) == 2 and result.axes[0].name == "Omega"
-    return picture(result, tongues(result) if two else (), suffix[1:])
-
-
-def _npz(result: Chart) -> bytes:
-    buffer = io.BytesIO()
-    named = {axis.name: axis.points for axis in result.axes}
-    extra = {"error": result.error, "disagreement": result.disagreement}
-    np.savez_compressed(buffer, T=result.T, **named, **extra)  # type: ignore[arg-type]
-    return buffer.getvalue()
-
-
-def _csv(result: Chart) -> bytes:
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    names = [axis.name for axis in result.axes]
-    writer.writerow([*names, "T"])
-    mesh = np.meshgrid(*(axis.points for axis in result.axes), indexing="ij")
-    columns = [m.ravel() for m in mesh] + [np.transpose(result.T).ravel()]
-    np.savetxt(text, np.column_stack(columns), fmt="%.12g", delimiter=",")
-    return text.getvalue().encode()
+def _listed(found: Sequence[Instability], other: str) -> Table:
+    """The tongues, widest first."""
+    table = Table(box=box.SIMPLE, pad_edge=False)
+    table.add_column("resonance", no_wrap=True)
+    table.add_column("type")
+    damped = other == "gamma" and any(np.isfinite(i.critical_gamma) for i in found)
+    heads = ["tip at Omega", other, f"widest at {other}", "width", "Hsu's", "largest T", "at Omega"]
+    for head in heads + ["critical gamma", "Hsu's"] * damped:
+        table.add_column(head, justify="right")
+    for i in found:
+        tip = i.tips[0] if i.tips else (np.nan, np.nan)
+        numbers = [(tip[0], 6), (tip[1], 5), (i.y, 4), (i.width, 5)]
+        numbers += [(i.width_Hsu or np.nan, 5), (i.T, 5), (i.Omega, 5)]
+        if damped:
+            numbers += [(i.critical_gamma, 5), (i.critical_gamma_Hsu, 5)]
+        words = [f"{v:.{digits}f}" if np.isfinite(v) else "-" for v, digits in numbers]
+        table.add_row(i.resonance.name, i.resonance.type, *words)
+    return table

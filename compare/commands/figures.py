@@ -1,7 +1,6 @@
 """``verify figures``: the report's Figures 3 to 29, drawn from both routes."""
 
 import argparse
-import os
 from functools import partial
 from pathlib import Path
 
@@ -11,8 +10,7 @@ from compare.figures.compute import compute, named, tasks
 from compare.figures.data import as_csv
 from compare.figures.draw import draw, require
 from compare.output import check_writable, write_whole
-from compare.workers import mapper
-from hill import checks
+from compare.workers import ALL, mapper
 
 FORMATS = ("png", "svg", "csv")
 SUMMARY = "draw the report's figures, 3 to 29, from both routes"
@@ -48,9 +46,9 @@ def configure(p: argparse.ArgumentParser) -> None:
     p.add_argument(
         "--workers",
         type=int,
-        default=os.cpu_count() or 1,
+        default=ALL,
         metavar="N",
-        help="processes (default: one a core)",
+        help="processes, -1 for one a core (default)",
     )
 
 
@@ -62,11 +60,10 @@ def run(options: argparse.Namespace) -> int:
     formats = tuple(options.format or FORMATS)
     if set(formats) - {"csv"}:
         require()
-    count = checks.count("workers", options.workers, least=1)
     _prepare(options.output)
     job = partial(_make, formats=formats, folder=options.output)
     lines: list[tuple[int, str]] = []
-    with progress("figures", len(numbers)) as advance, mapper(count) as each:
+    with progress("figures", len(numbers)) as advance, mapper(options.workers) as each:
         for made in each(job, tasks(numbers)):
             for line in made:
                 lines.append(line)

@@ -70,7 +70,9 @@ def configure(p: argparse.ArgumentParser) -> None:
         metavar="N",
         help="bending modes of both routes (default 2, the report's)",
     )
-    p.add_argument("--workers", type=int, default=1, metavar="N", help="processes (default 1)")
+    p.add_argument(
+        "--workers", type=int, default=1, metavar="N", help="processes, -1 for one a core"
+    )
 
 
 def run(options: argparse.Namespace) -> int:

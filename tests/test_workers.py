@@ -1,0 +1,104 @@
+"""Several processes: which they are, in what order they answer, and what becomes of them."""
+
+import os
+import signal
+import time
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import pytest
+from threadpoolctl import threadpool_info
+
+import compare.workers
+from compare.workers import WorkersError, mapper, unordered
+
+
+def square(x: int) -> int:
+    return x * x
+
+
+def blas_threads(_: int) -> list[int]:
+    import numpy  # noqa: F401 - loads what is asked about
+
+    return [info["num_threads"] for info in threadpool_info()]
+
+
+def interruptible(_: int) -> bool:
+    return signal.SIGINT not in signal.pthread_sigmask(signal.SIG_BLOCK, [])
+
+
+def leave(_: int) -> None:
+    os._exit(1)
+
+
+def first_waits(job: tuple[int, str]) -> int:
+    """The first job is finished only after a file has appeared."""
+    number, path = job
+    deadline = time.monotonic() + 30.0
+    while number == 0 and not Path(path).exists():
+        if time.monotonic() > deadline:
+            raise TimeoutError
+        time.sleep(0.01)
+    return number
+
+
+def test_a_process_has_one_blas_thread_and_no_ear_for_interrupts(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    # what they would be given otherwise (on two cores or more: one core has one thread anyhow)
+    monkeypatch.setenv("OPENBLAS_NUM_THREADS", "3")
+    monkeypatch.delenv("OMP_NUM_THREADS", raising=False)
+    with mapper(2) as run:
+        counts = list(run(blas_threads, range(2)))
+        heard = list(run(interruptible, range(2)))
+    assert all(counts)
+    assert {n for each in counts for n in each} == {1}
+    # ... and the caller's environment is the caller's
+    assert os.environ["OPENBLAS_NUM_THREADS"] == "3"
+    assert "OMP_NUM_THREADS" not in os.environ
+    # Ctrl-C reaches every process of the terminal; only the caller answers
+    assert heard == [False, False]
+    assert interruptible(0)
+
+
+def test_order_is_kept_or_not_waited_for(tmp_path: Path) -> None:
+    gate = tmp_path / "gate"
+    with mapper(2) as run:
+        assert list(run(square, range(7))) == [x * x for x in range(7)]
+        arrived = []
+        for number in unordered(run)(first_waits, [(k, str(gate)) for k in range(4)]):
+            arrived.append(number)
+            if len(arrived) == 3:
+                gate.touch()
+    assert sorted(arrived) == [0, 1, 2, 3]
+    assert arrived[-1] == 0
+    # anybody's map is taken as it is
+    assert unordered(map) is map
+
+
+def test_a_process_that_dies_is_reported() -> None:
+    for way in (lambda run: run, unordered):
+        with mapper(2) as run, pytest.raises(WorkersError, match="a process died"):
+            list(way(run)(leave, range(1)))
+
+
+def test_minus_one_is_every_core(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert 1 <= compare.workers.cores() <= (os.cpu_count() or 1)
+    monkeypatch.setattr(compare.workers, "cores", lambda: 1)
+    with mapper(-1) as run:
+        assert run is map
+
+
+@pytest.mark.parametrize("workers", [0, -2, 1.5, True, "2", None])
+def test_other_numbers_are_refused(workers: object) -> None:
+    with pytest.raises(ValueError, match="workers = "), mapper(workers):  # type: ignore[arg-type]
+        pass
+
+
+def test_an_executor_is_told_how_to_go_in() -> None:
+    with ThreadPoolExecutor(1) as pool:
+        says = r"ThreadPoolExecutor: .*executor's \.map"
+        with pytest.raises(ValueError, match=says), mapper(pool):  # type: ignore[arg-type]
+            pass
+        with mapper(pool.map) as run:
+            assert list(run(square, range(3))) == [0, 1, 4]
