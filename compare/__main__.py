@@ -6,7 +6,9 @@ import sys
 from collections.abc import Sequence
 from importlib import import_module
 
-COMMANDS: tuple[str, ...] = ("listing", "figures", "claims", "chart")
+from compare.workers import WorkersError
+
+COMMANDS: tuple[str, ...] = ("listing", "figures", "claims", "chart", "sensitivity")
 """Subcommands, each a module of `compare.commands` with SUMMARY, EPILOG, configure and run."""
 
 
@@ -27,7 +29,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     options = parser.parse_args(words)
     try:
         return int(command.run(options))
-    except (ValueError, OverflowError) as error:
+    except (ValueError, OverflowError, WorkersError) as error:
         print(f"{program}: {error}", file=sys.stderr)
         return 2
     except KeyboardInterrupt:

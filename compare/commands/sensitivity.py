@@ -1,0 +1,140 @@
+"""``verify sensitivity``: how T moves with every parameter of a beam."""
+
+import argparse
+import io
+import json
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from rich import box
+from rich.console import Console
+from rich.table import Table
+
+from compare.charts import specification
+from compare.charts.parameters import Beam, Family
+from compare.commands.terminal import terminal
+from compare.output import check_writable, write_whole
+from compare.resonances import Resonance
+from floquet import BeamSensitivities, beam_sensitivities
+
+SUMMARY = "how the characteristic argument T moves with every parameter"
+EPILOG = """\
+examples:
+  verify sensitivity
+  verify sensitivity --beam stepped --set Omega=1.1 --set eta=0.01
+  verify sensitivity --set omega_L=10 --set g=0.02 --format json
+
+The beam is the report's (Table 1, or Table 2 with --beam stepped) but for what --set changes; gamma
+is 0.1 and Omega the beam's own omega_(B) + omega_(1) where they are not set. The derivatives come
+from automatic differentiation of the integration over one period, and each has an error bound.
+JSON has those of z too.
+
+exit status: 0 done; 2 wrong usage or input, or T has no derivative there."""
+
+FORMATS = ("text", "json")
+GAMMA = 0.1
+RESONANCE = Resonance(1, 0)
+
+
+def configure(p: argparse.ArgumentParser) -> None:
+    """Options of the command."""
+    p.add_argument("--beam", choices=tuple(specification.BEAMS), default="uniform")
+    p.add_argument(
+        "--set", action="append", default=[], metavar="NAME=VALUE", help="a parameter; repeatable"
+    )
+    p.add_argument("--format", choices=FORMATS, default="text")
+    p.add_argument(
+        "--output", type=Path, metavar="FILE", help="write there instead of the terminal"
+    )
+
+
+def run(options: argparse.Namespace) -> int:
+    """Run it; return the exit status."""
+    wanted = specification.from_words(options.beam, options.set, [])
+    if options.output is not None:
+        check_writable(options.output)
+    beam = wanted.beam
+    forcing = {"gamma": GAMMA, "eta": 0.0} | wanted.forcing
+    if "Omega" not in forcing:
+        forcing["Omega"] = _resonant(beam)
+    Family(beam, forcing).check(())
+    found = beam_sensitivities(beam, **forcing)
+    if options.format == "json":
+        _write(json.dumps(content(options.beam, found), indent=2) + "\n", options.output)
+    elif options.output is None:
+        show(options.beam, found, terminal())
+    else:
+        buffer = io.StringIO()
+        show(options.beam, found, Console(file=buffer, width=100))
+        write_whole(options.output, buffer.getvalue())
+    return 0
+
+
+def show(kind: str, found: BeamSensitivities, console: Console) -> None:
+    """Print where, what T is, and a line for each parameter."""
+    at = ", ".join(f"{name} = {found.values[name]:.7g}" for name in ("Omega", "gamma", "eta"))
+    console.print(
+        f"The {kind} beam at {at}: T = {round(found.T, 6) + 0.0:.6f}", style="bold", highlight=False
+    )
+    console.print()
+    table = Table(box=box.SIMPLE_HEAD, pad_edge=False, show_edge=False, padding=(0, 2, 0, 0))
+    table.add_column("parameter p", no_wrap=True)
+    for name in ("value", "dT/dp", "known to", "p + 1%: T moves by"):
+        table.add_column(name, justify="right", no_wrap=True)
+    for name, value in found.values.items():
+        slope, error = found.dT[name], found.dT_error[name]
+        share = _signed(0.01 * value * slope, 0.01 * abs(value) * error) if value else "-"
+        known = f"{error:.0e}" if error else "exact"
+        table.add_row(name, f"{value:.7g}", _signed(slope, error), known, share)
+    console.print(table)
+    if not any(slope for name, slope in found.dT.items() if name != "eta"):
+        console.print()
+        console.print("Stable, and not on a boundary: T = -eta, and nothing else moves it.")
+
+
+def content(kind: str, found: BeamSensitivities) -> dict[str, Any]:
+    """What JSON holds; complex numbers are [re, im]."""
+    return {
+        "beam": kind,
+        "T": found.T,
+        "z": _pairs(found.z),
+        "parameters": [
+            {
+                "name": name,
+                "value": value,
+                "dT": found.dT[name],
+                "dT_error": found.dT_error[name],
+                "dz": _pairs(found.dz[name]),
+                "dz_error": found.dz_error[name].tolist(),
+            }
+            for name, value in found.values.items()
+        ],
+    }
+
+
+def _resonant(beam: Beam) -> float:
+    Omega = RESONANCE.Omega(beam.natural_frequencies().astype(complex))
+    if not np.isfinite(Omega) or Omega <= 0.0:
+        raise ValueError("Omega: has no value; this beam has no omega_(B) + omega_(1), set Omega")
+    return Omega
+
+
+def _signed(value: float, error: float = 0.0) -> str:
+    """Six decimals, or four digits of what is small or large; 0 where it may be."""
+    if abs(value) <= error or value == 0.0:
+        return " 0"
+    return f"{value:+.6f}" if 1e-3 <= abs(value) < 1e4 else f"{value:+.3e}"
+
+
+def _pairs(values: Any) -> list[list[float]]:
+    return [[float(z.real), float(z.imag)] for z in np.asarray(values, complex)]
+
+
+def _write(text: str, path: Path | None) -> None:
+    if path is None:
+        sys.stdout.write(text)
+        sys.stdout.flush()
+    else:
+        write_whole(path, text)
