@@ -33,6 +33,9 @@ SAFETY = 4.0
 # 12 modes, twice the growth over a period where there is one. Beyond, the whole period loses less.
 WELL = 100.0
 
+# exp of it is still a float.
+MOST_DECAY = 700.0
+
 # Each method and the one it is checked by: other steps, another tolerance.
 METHODS: dict[str, tuple[Propagator, Propagator]] = {
     "taylor": (Taylor(), Taylor(order=29)),
@@ -118,7 +121,7 @@ def monodromy(
     ValueError
         `method` unknown.
     OverflowError
-        The growth over one period exceeds what a float can hold.
+        The growth or the decay over one period exceeds what a float can hold.
     """
     if method not in METHODS:
         raise ValueError(f"method = {method!r}: must be one of {', '.join(METHODS)}")
@@ -133,6 +136,11 @@ def monodromy(
         return _general(equation, run, whole, method)
 
     eta, n = equation.damping, size.n
+    if abs(eta) * 0.5 * period > MOST_DECAY:
+        raise OverflowError(
+            f"eta = {eta:g}, Omega = {equation.Omega:g}: the decay over one period, "
+            "exp(-pi eta/Omega), exceeds what a float can hold"
+        )
     undamped = values(equation, undamped=True)
     U = _finite(run(undamped, size, 0.5 * period))
     try:

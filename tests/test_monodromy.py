@@ -246,3 +246,15 @@ def test_growth_is_finite_or_refused(square: float) -> None:
     numbers = [found.error, found.T, found.T_error, *found.polynomial]
     assert np.all(np.isfinite(numbers))
     assert abs(found.T / (2 * np.sqrt(-square)) - 1.0) < 2e-3
+
+
+def test_damping_beyond_a_float_is_refused() -> None:
+    """exp(pi eta/Omega) = exp(942): refused in one line, not a matrix of nan."""
+
+    def damped(Omega: float) -> HillEquation:
+        return HillEquation(F=[[1.7]], G=[[1.0]], gamma=0.0, Omega=Omega, eta=0.3)
+
+    with pytest.raises(OverflowError, match=r"eta = 0\.3, Omega = 0\.001: the decay"):
+        monodromy(damped(0.001))
+    # half of it is within reach, and T is -eta: 2e-15 measured
+    assert abs(monodromy(damped(0.002)).T + 0.3) < 1e-12
