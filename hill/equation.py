@@ -87,6 +87,29 @@ class HillEquation:
         if self.H:
             _ = self.ratio
 
+    def forced(self, *, Omega: float, gamma: float, eta: float) -> "HillEquation":
+        """The same matrices under another forcing; they are not checked again.
+
+        Raises
+        ------
+        ValueError
+            A value out of range; `H`, whose period must be a whole part of the new one.
+        """
+        if self.H:
+            raise ValueError("H: belongs to its own Omega; make a new HillEquation")
+        other = object.__new__(HillEquation)
+        checks.store(
+            other,
+            F=self.F,
+            G=self.G,
+            gamma=checks.number("gamma", gamma),
+            Omega=checks.between("Omega", checks.positive("Omega", Omega), *SQUARABLE),
+            eta=checks.number("eta", eta),
+            H=(),
+            omega_L=self.omega_L,
+        )
+        return other
+
     @property
     def n(self) -> int:
         """Number of coordinates."""

@@ -40,8 +40,12 @@ def _growth(p: Float) -> Float:
     if degree == 2:
         return _pair(p[1], p[2])
     if degree == 3:
-        lone = most_isolated_root(p[1], p[2], p[3])
-        return np.maximum(_real(lone), _pair(p[1] + lone, p[2] + lone * (p[1] + lone)))
+        result = np.zeros(p.shape[1])
+        grows = np.flatnonzero(~all_within(p[1], p[2], p[3]))
+        a, b, c = (p[k, grows] for k in (1, 2, 3))
+        lone = most_isolated_root(a, b, c)
+        result[grows] = np.maximum(_real(lone), _pair(a + lone, b + lone * (a + lone)))
+        return result
     z = values(p)
     return _general(z).max(axis=0)
 
@@ -53,6 +57,22 @@ def values(polynomials: Float) -> Complex:
     companion[:, np.arange(1, n), np.arange(n - 1)] = 1.0
     companion[:, 0, :] = -polynomials[1:].T
     return np.asarray(np.linalg.eigvals(companion).astype(complex).T)
+
+
+def all_within(a: Float, b: Float, c: Float) -> NDArray[np.bool_]:
+    """Whether all roots of z^3 + a z^2 + b z + c are real and within [-1, 1]: R is 1, no growth.
+
+    Real where the discriminant is not negative; none is beyond 1, or below -1, where no derivative
+    changes its sign there (Budan and Fourier, exact for real roots).
+    """
+    # P, P', P''/2 at 1 and at -1
+    even, odd = 1.0 + b, a + c
+    inside = (np.abs(odd) <= even) & (np.abs(a) <= 3.0)
+    inside &= 2.0 * np.abs(a) <= 3.0 + b
+    third = a / 3.0
+    p = b - a * third
+    q = c + third * (2.0 * third * third - b)
+    return inside & (4.0 * p * p * p + 27.0 * q * q <= 0.0)
 
 
 def most_isolated_root(a: Float, b: Float, c: Float) -> Float:

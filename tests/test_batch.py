@@ -12,7 +12,7 @@ from floquet.batch import WORTH_COMPILING, polynomials, sweep
 from floquet.march import growth_bound
 from floquet.steps import longest_step, perron
 from hill import HillEquation, UniformBeam
-from hill.roots import growth, most_isolated_root
+from hill.roots import all_within, growth, most_isolated_root
 from hill.stability import modulus
 
 BEAM = UniformBeam(T0=20.0, K_theta=0.5, xi_G=0.5).equation(1.0, 0.1)
@@ -175,3 +175,26 @@ def test_isolated_root_is_a_root() -> None:
     a, b, c = np.random.default_rng(1).uniform(-2, 2, (3, 1000))
     z = most_isolated_root(a, b, c)
     assert np.abs(((z + a) * z + b) * z + c).max() < 1e-13
+
+
+def test_all_within_is_all_roots_within() -> None:
+    rng = np.random.default_rng(8)
+    z = rng.uniform(-1.2, 1.2, (20_000, 3)).astype(complex)
+    pairs = rng.random(len(z)) < 0.3
+    z[pairs, 1] = z[pairs, 0].real + 1j * rng.uniform(1e-6, 0.5, pairs.sum())
+    z[pairs, 0] = z[pairs, 1].conj()
+    P = np.array([np.real(np.poly(roots)) for roots in z]).T
+    true = np.all((z.imag == 0.0) & (np.abs(z.real) <= 1.0), axis=1)
+    assert 0.2 < true.mean() < 0.6
+    assert np.array_equal(all_within(*P[1:]), true)
+
+
+def test_another_forcing_of_the_same_matrices() -> None:
+    other = BEAM.forced(Omega=2.0, gamma=0.3, eta=0.1)
+    again = HillEquation(F=BEAM.F, G=BEAM.G, gamma=0.3, Omega=2.0, eta=0.1)
+    assert np.array_equal(monodromy(other).matrix, monodromy(again).matrix)
+    with pytest.raises(ValueError, match="Omega"):
+        BEAM.forced(Omega=-1.0, gamma=0.3, eta=0.1)
+    free = HillEquation(F=[[1.0]], G=[[1.0]], gamma=0.1, Omega=1.0, H=[[[1.0]]], omega_L=2.0)
+    with pytest.raises(ValueError, match="H: belongs to its own Omega"):
+        free.forced(Omega=2.0, gamma=0.1, eta=0.0)

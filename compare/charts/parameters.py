@@ -128,15 +128,8 @@ class Family:
             if key not in made:
                 source = beam.equation if closed_form else _quadrature(beam)
                 made[key] = source(forcing["Omega"], forcing["gamma"], forcing["eta"])
-            model = made[key]
-            found.append(with_forcing(model, forcing))
+            found.append(made[key].forced(**forcing))
         return found
-
-
-def with_forcing(model: HillEquation, forcing: Mapping[str, float]) -> HillEquation:
-    """The matrices of one equation with another's Omega, gamma and eta."""
-    Omega, gamma, eta = (forcing[name] for name in FORCING)
-    return HillEquation(F=model.F, G=model.G, gamma=gamma, Omega=Omega, eta=eta)
 
 
 def _quadrature(beam: Beam) -> Any:

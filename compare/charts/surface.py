@@ -179,7 +179,8 @@ def _across_pole(values: Float) -> int:
     """The axis along which infinite values are few: a pole runs across it."""
     infinite = ~np.isfinite(values).all(axis=0)
     axes = range(infinite.ndim)
-    shares = [infinite.any(axis=tuple(j for j in axes if j != k)).mean() for k in axes]
+    others = (tuple(j for j in axes if j != k) for k in axes)
+    shares = [float(np.any(infinite, axis=other).mean()) for other in others]
     return int(np.argmin(shares))
 
 

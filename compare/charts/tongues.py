@@ -12,7 +12,7 @@ from compare.boundaries import Family as Curves
 from compare.boundaries import Tongue, follow
 from compare.charts import chebyshev
 from compare.charts.compute import Chart
-from compare.charts.parameters import Axis, with_forcing
+from compare.charts.parameters import Axis
 from compare.charts.surface import Surface
 from compare.resonances import Resonance, first_order, modal
 from floquet.batch import polynomials
@@ -118,7 +118,7 @@ def on_surface(chart: Chart) -> OnSurface:
         # without compliance F and G do not know Omega
         beam, forcing = chart.family.at({"Omega": Omega, y.name: value})
         model = matrices(value, None if np.isinf(beam.omega_L) else Omega)
-        return with_forcing(model, forcing)
+        return model.forced(**forcing)
 
     return OnSurface(
         known,
