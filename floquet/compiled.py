@@ -22,8 +22,13 @@ from floquet.steps import MOST_EXPONENT, RADII
 COMPILERS = ("cc", "gcc", "clang")
 FLAGS = ("-O3", "-march=native", "-fno-math-errno", "-fPIC", "-shared", "-lm")
 
-# Columns summed at once: as many accumulators as 32 registers hold beside their operands.
-WIDEST_BLOCK = 8
+# Sums kept at once, of 32 registers; the quickest of 8, 12, 16, 18 and 24 from 2 to 20 modes.
+MOST_SUMS = 16
+
+# Bytes of the nearest cache that the coefficients of some columns may fill; 32 to 48 kB is usual.
+NEAREST_CACHE = 40_000
+BYTES = 8 * 8
+"""Of one number for eight points side by side."""
 
 # The numbers of a point sit on the compiler's stack, 3 (2n)^2 of them.
 MOST_COORDINATES = 40
@@ -54,8 +59,9 @@ def march(n: int, terms: int) -> March | None:
 
 def _built(command: str, n: int, terms: int) -> Path:
     source = files("floquet").joinpath("march.c").read_bytes()
-    block = max(b for b in range(1, WIDEST_BLOCK + 1) if 2 * n % b == 0)
-    sizes = {"N": n, "TERMS": terms, "ORDER": ORDER, "BLOCK": block, "POWERS": POWERS}
+    columns, block = _blocks(n)
+    sizes = {"N": n, "TERMS": terms, "ORDER": ORDER, "POWERS": POWERS}
+    sizes |= {"COLUMNS": columns, "BLOCK": block}
     sizes |= {"RADII": len(RADII), "MOST_EXPONENT": int(MOST_EXPONENT)}
     options = [f"-D{name}={value}" for name, value in sizes.items()]
     version = subprocess.run([command, "--version"], capture_output=True, check=True, timeout=20)
@@ -78,6 +84,15 @@ def _built(command: str, n: int, terms: int) -> Path:
         finally:
             Path(unfinished).unlink(missing_ok=True)
     return target
+
+
+def _blocks(n: int) -> tuple[int, int]:
+    """Columns taken at once, and sums kept at once, a multiple of them."""
+    fitting = NEAREST_CACHE // (BYTES * (ORDER + 1) * n)
+    most = min(max(fitting, 1), MOST_SUMS)
+    columns = max(c for c in range(1, most + 1) if 2 * n % c == 0)
+    rows = min(n, MOST_SUMS // columns)
+    return columns, columns * rows
 
 
 def _folder() -> Path:

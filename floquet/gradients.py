@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floquet.ode import Parameters, Shape
-from floquet.propagate import FOLDED, Taylor, _bucket, _folded, terms
+from floquet.propagate import FOLDED, Taylor, bucket, folded, terms
 from floquet.steps import longest_step
 
 Float = NDArray[np.floating[Any]]
@@ -91,9 +91,9 @@ class Tape:
 def tape(method: Taylor, p: Parameters, size: Shape, time: float) -> Tape:
     """Integrate over `time` with the steps that `method` itself takes."""
     needed = ceil(time / longest_step(terms(p, size), p.C, method.order, method.tolerance))
-    steps = _bucket(min(needed, FOLDED))
+    steps = bucket(min(needed, FOLDED))
     empty = Tape(p, size, time, method.order, steps, ceil(needed / steps), ())
-    fold = _folded(size, method.order, steps)
+    fold = folded(size, method.order, steps)
     states = [np.eye(2 * size.n)]
     for k in range(empty.folds):
         states.append(np.asarray(fold(states[-1], *_inputs(empty, k))))
@@ -103,7 +103,7 @@ def tape(method: Taylor, p: Parameters, size: Shape, time: float) -> Tape:
 @lru_cache(maxsize=64)
 def _reverse(size: Shape, order: int, steps: int) -> Any:
     # CasADi itself forgets a derivative that nobody holds
-    return _folded(size, order, steps).reverse(1)
+    return folded(size, order, steps).reverse(1)
 
 
 def _inputs(t: Tape, k: int) -> list[Float]:

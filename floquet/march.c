@@ -1,7 +1,7 @@
 /* Half a period of u'' = -(x F - shift) u - sum_i w_i cos(p_i theta) G_i u, LANES points side by
  * side, and what P(z) needs of it. The same recurrence as floquet/march.py; N coordinates, TERMS
- * cosines, Taylor ORDER, BLOCK (columns summed at once, a divisor of 2 N), POWERS, RADII and
- * MOST_EXPONENT are set on the compiler's command line. */
+ * cosines, Taylor ORDER, COLUMNS of U taken at once (a divisor of 2 N), BLOCK sums kept in registers
+ * (a multiple of COLUMNS), POWERS, RADII and MOST_EXPONENT are set on the compiler's command line. */
 
 #include <math.h>
 #include <stdlib.h>
@@ -9,10 +9,13 @@
 
 #define LANES 8
 #define WIDE (2 * N)
+#define MOST_KEPT 64 /* steps whose cosines are kept for the next columns */
 #define TINY 1e-300 /* keeps v > 0 where a row of S is 0 */
 
+#define FLAT (N * COLUMNS)
+#define INLINE static inline __attribute__((always_inline))
+
 typedef double lanes __attribute__((vector_size(8 * LANES)));
-typedef lanes columns[WIDE];
 
 /* Taylor coefficients of cos(p (theta + x h)) in x, one series a cosine. */
 static void cosines(double *series, const int *phases, double theta, double h)
@@ -80,52 +83,67 @@ static double longest_step(const double *worst, const int *phases, const double 
     return longest;
 }
 
-/* One Taylor step: a[0], a[1] hold u and h u' at its start, and at its end. */
-static void advance(columns a[ORDER + 1][N], const double *matrices, const double *cosine,
+/* sum[e] = w sum_j series[k - j] a[j][e] for `width` elements, which stay in registers. */
+INLINE void convolve(int width, int k, const double *series, lanes w, const lanes *a, lanes *sum)
+{
+    lanes s[BLOCK];
+    memset(s, 0, sizeof s);
+    for (int j = 0; j <= k; j++)
+        for (int e = 0; e < width; e++)
+            s[e] += series[k - j] * a[j * FLAT + e];
+    for (int e = 0; e < width; e++)
+        sum[e] = w * s[e];
+}
+
+/* next[r] = factor (shift now[r] - sum_i matrix_i[r] . load_i) for `rows` rows of each matrix. */
+INLINE void combine(int rows, const double *matrices, const lanes (*load)[FLAT], const lanes *now,
+                    lanes shift, double factor, lanes *next)
+{
+    lanes s[BLOCK];
+    for (int e = 0; e < rows * COLUMNS; e++)
+        s[e] = shift * now[e];
+    for (int i = 0; i <= TERMS; i++)
+        for (int q = 0; q < N; q++)
+            for (int r = 0; r < rows; r++)
+                for (int c = 0; c < COLUMNS; c++)
+                    s[r * COLUMNS + c] -= matrices[(i * N + r) * N + q] * load[i][q * COLUMNS + c];
+    for (int e = 0; e < rows * COLUMNS; e++)
+        next[e] = factor * s[e];
+}
+
+/* One Taylor step of some columns: a[0], a[1] hold u and h u' at its start, and at its end. */
+static void advance(lanes a[ORDER + 1][FLAT], const double *matrices, const double *cosine,
                     const lanes *weights, lanes shift, double hh)
 {
+    enum { ROWS = BLOCK / COLUMNS, LEFT = FLAT % BLOCK, ROWS_LEFT = N % (BLOCK / COLUMNS) };
     for (int k = 0; k + 2 <= ORDER; k++) {
-        columns force[N];
-        for (int r = 0; r < N; r++)
-            for (int c = 0; c < WIDE; c++)
-                force[r][c] = shift * a[k][r][c];
-        for (int i = 0; i <= TERMS; i++) {
-            const double *matrix = matrices + i * N * N;
+        lanes load[1 + TERMS][FLAT];
+        for (int e = 0; e < FLAT; e++)
+            load[0][e] = weights[0] * a[k][e];
+        for (int i = 1; i <= TERMS; i++) {
             const double *series = cosine + (i - 1) * ORDER;
-            for (int q = 0; q < N; q++)
-                for (int c = 0; c < WIDE; c += BLOCK) {
-                    lanes sum[BLOCK];
-                    if (i == 0)
-                        for (int b = 0; b < BLOCK; b++)
-                            sum[b] = a[k][q][c + b];
-                    else {
-                        memset(sum, 0, sizeof sum);
-                        for (int j = 0; j <= k; j++)
-                            for (int b = 0; b < BLOCK; b++)
-                                sum[b] += series[k - j] * a[j][q][c + b];
-                    }
-                    for (int b = 0; b < BLOCK; b++)
-                        sum[b] *= weights[i];
-                    for (int r = 0; r < N; r++)
-                        for (int b = 0; b < BLOCK; b++)
-                            force[r][c + b] -= matrix[r * N + q] * sum[b];
-                }
+            int e = 0;
+            for (; e + BLOCK <= FLAT; e += BLOCK)
+                convolve(BLOCK, k, series, weights[i], &a[0][e], &load[i][e]);
+            convolve(LEFT, k, series, weights[i], &a[0][e], &load[i][e]);
         }
         double factor = hh / ((k + 1.0) * (k + 2.0));
-        for (int r = 0; r < N; r++)
-            for (int c = 0; c < WIDE; c++)
-                a[k + 2][r][c] = factor * force[r][c];
+        int r = 0;
+        for (; r + ROWS <= N; r += ROWS)
+            combine(ROWS, matrices + r * N, load, &a[k][r * COLUMNS], shift, factor,
+                    &a[k + 2][r * COLUMNS]);
+        combine(ROWS_LEFT, matrices + r * N, load, &a[k][r * COLUMNS], shift, factor,
+                &a[k + 2][r * COLUMNS]);
     }
-    for (int r = 0; r < N; r++)
-        for (int c = 0; c < WIDE; c++) {
-            lanes position = a[ORDER][r][c], velocity = ORDER * a[ORDER][r][c];
-            for (int k = ORDER - 1; k >= 1; k--) {
-                position += a[k][r][c];
-                velocity += k * a[k][r][c];
-            }
-            a[0][r][c] += position;
-            a[1][r][c] = velocity;
+    for (int e = 0; e < FLAT; e++) {
+        lanes position = a[ORDER][e], velocity = ORDER * a[ORDER][e];
+        for (int k = ORDER - 1; k >= 1; k--) {
+            position += a[k][e];
+            velocity += k * a[k][e];
         }
+        a[0][e] += position;
+        a[1][e] = velocity;
+    }
 }
 
 /* Inverse of a matrix by Gauss and Jordan with pivoting; 0 where there is none. */
@@ -224,9 +242,15 @@ int march(int points, const double *matrices, const double *weights, const doubl
           const int *phases, const double *radii, double tolerance, double most, double *one,
           double *other, double *growth, double *rate)
 {
-    columns(*a)[N] = aligned_alloc(64, sizeof(columns[ORDER + 1][N]));
-    if (!a)
+    lanes(*a)[FLAT] = aligned_alloc(64, sizeof(lanes[ORDER + 1][FLAT]));
+    double(*U)[WIDE][WIDE] = malloc(sizeof(double[LANES][WIDE][WIDE]));
+    double *series = malloc(sizeof(double) * TERMS * ORDER * MOST_KEPT);
+    if (!a || !U || !series) {
+        free(a);
+        free(U);
+        free(series);
         return 1;
+    }
     for (int start = 0; start < points; start += LANES) {
         int filled = points - start < LANES ? points - start : LANES;
         lanes w[1 + TERMS], s;
@@ -250,26 +274,31 @@ int march(int points, const double *matrices, const double *weights, const doubl
         int within = steps >= 1.0 && steps <= most;
         double h = pi / steps;
 
-        memset(a, 0, 2 * sizeof(columns[N]));
-        for (int r = 0; r < N; r++)
-            for (int l = 0; l < LANES; l++) {
-                a[0][r][r][l] = 1.0;
-                a[1][r][N + r][l] = h;
+        /* the columns of U do not know of each other: a few at a time stay in the nearest cache */
+        for (int first = 0; first < WIDE; first += COLUMNS) {
+            memset(a, 0, 2 * sizeof(lanes[FLAT]));
+            for (int c = 0; c < COLUMNS; c++) {
+                int r = (first + c) % N, derivative = first + c >= N;
+                for (int l = 0; l < LANES; l++)
+                    a[derivative][r * COLUMNS + c][l] = derivative ? h : 1.0;
             }
-        for (int step = 0; within && step < steps; step++) {
-            double series[TERMS * ORDER];
-            cosines(series, phases, step * h, h);
-            advance(a, matrices, series, w, s, h * h);
+            for (int step = 0; within && step < steps; step++) {
+                double *own = series + (step % MOST_KEPT) * TERMS * ORDER;
+                if (first == 0 || steps > MOST_KEPT)
+                    cosines(own, phases, step * h, h);
+                advance(a, matrices, own, w, s, h * h);
+            }
+            for (int l = 0; l < LANES; l++)
+                for (int r = 0; r < N; r++)
+                    for (int c = 0; c < COLUMNS; c++) {
+                        U[l][r][first + c] = a[0][r * COLUMNS + c][l];
+                        U[l][N + r][first + c] = a[1][r * COLUMNS + c][l] / h;
+                    }
         }
         for (int l = 0; l < filled; l++) {
-            double U[WIDE][WIDE], A[N][N], block[N][N];
+            double A[N][N], block[N][N];
             size_t point = start + l;
-            for (int r = 0; r < N; r++)
-                for (int c = 0; c < WIDE; c++) {
-                    U[r][c] = a[0][r][c][l];
-                    U[N + r][c] = a[1][r][c][l] / h;
-                }
-            growth[point] = finish(U, A, block);
+            growth[point] = finish(U[l], A, block);
 #if N <= 3
             polynomial(A, block, one + point * (N + 1), other + point);
 #else
@@ -282,5 +311,7 @@ int march(int points, const double *matrices, const double *weights, const doubl
         }
     }
     free(a);
+    free(U);
+    free(series);
     return 0;
 }

@@ -17,6 +17,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from floquet.eigenvalues import eigenvalues
 from floquet.ode import Parameters, shape, values
 from floquet.propagate import Cvodes, Propagator, Taylor, terms
 from floquet.steps import perron, rate
@@ -157,7 +158,7 @@ def monodromy(
     error += FLOOR[method] * sensitivity
     error += EPS * (8.0 + rate(terms(undamped, size), undamped.C) * period) * sensitivity
 
-    z, radius = _eigenvalues(Phi_u[:n, :n], error)
+    z, radius = eigenvalues(Phi_u[:n, :n], error)
     root = np.sqrt(z - 1.0) * np.sqrt(z + 1.0)
     outer = np.where(np.abs(z + root) >= np.abs(z - root), z + root, z - root)
     pairs = np.concatenate([outer, 1.0 / outer])  # z - root cancels where z is large
@@ -211,7 +212,7 @@ def _general(equation: HillEquation, run: Propagator, checked: Float, method: st
     error = SAFETY * float(np.max(np.abs(polynomial - other)))
     error += FLOOR[method] * sensitivity
     error += EPS * (8.0 + rate(terms(p, size), p.C) * period) * sensitivity
-    mu, radius = _eigenvalues(Phi, error)
+    mu, radius = eigenvalues(Phi, error)
     outer = np.abs(mu) + radius
     T = float(2.0 / period * np.log(np.abs(mu).max()))
     T_error = float(2.0 / period * np.log(outer.max())) - T
@@ -230,25 +231,6 @@ def _general(equation: HillEquation, run: Propagator, checked: Float, method: st
         method=method,
         half_period=False,
     )
-
-
-def _eigenvalues(A: Float, error: float) -> tuple[Complex, Float]:
-    """Eigenvalues by descending real part, and a radius about each that the true ones keep to.
-
-    Rouche: where |P| exceeds the most its error can amount to, all round a circle, the true
-    polynomial has as many roots inside as the computed one.
-    """
-    z = np.linalg.eigvals(A).astype(complex)
-    z = z[np.lexsort((z.imag, -z.real))]
-    radii = 2.0 ** np.arange(-52, 8)
-    around = np.exp(2j * np.pi * np.arange(24) / 24)
-    points = z[:, None, None] + radii[:, None] * around
-    value = np.abs(np.prod(points[..., None] - z, axis=-1))
-    # 24 points on a circle miss at most a factor cos(pi/24)^n of its smallest value
-    allowed = 2.0 * error * np.sum(np.abs(points)[..., None] ** np.arange(len(z)), axis=-1)
-    clear = np.all(value > allowed, axis=-1)
-    first = np.where(clear.any(axis=1), clear.argmax(axis=1), len(radii) - 1)
-    return z, radii[first]
 
 
 def _growth(z: Complex, period: float, eta: float, radius: Float) -> tuple[float, float]:

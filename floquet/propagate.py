@@ -60,13 +60,13 @@ class Taylor:
                 f"Omega = {p.Omega:g}: too small, one period needs {needed:,} Taylor steps "
                 f"(at most {MOST_STEPS:,})"
             )
-        steps = _bucket(min(needed, FOLDED))
+        steps = bucket(min(needed, FOLDED))
         return self.march(p, size, time, steps, ceil(needed / steps))
 
     def march(self, p: Parameters, size: Shape, time: float, steps: int, folds: int = 1) -> Float:
         """The same with a given number of steps, `folds` times as many as one fold has."""
         h = time / (folds * steps)
-        fold = _folded(size, self.order, steps)
+        fold = folded(size, self.order, steps)
         wide = [np.tile(value, (1, steps)) for value in p]
         X = np.eye(2 * size.n)
         for k in range(folds):
@@ -75,14 +75,15 @@ class Taylor:
         return np.asarray(X)
 
 
-def _bucket(steps: int) -> int:
+def bucket(steps: int) -> int:
     """Round up to 2^k or 3 2^(k-1), so that few folds are built and kept."""
     power = 1 << ceil(log2(max(steps, 2)))
     return power * 3 // 4 if steps <= power * 3 // 4 else power
 
 
 @lru_cache(maxsize=64)
-def _folded(size: Shape, order: int, steps: int) -> Any:
+def folded(size: Shape, order: int, steps: int) -> Any:
+    """`steps` steps as one CasADi function: inputs other than the state are side by side."""
     return _step(size, order).fold(steps)
 
 

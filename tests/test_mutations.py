@@ -46,7 +46,7 @@ Patch = pytest.MonkeyPatch
 
 def rebuild(monkeypatch: Patch) -> None:
     """CasADi functions are cached; a mutated one is compiled anew and does not outlive its test."""
-    for name in ("_step", "_folded", "_integrator"):
+    for name in ("_step", "folded", "_integrator"):
         monkeypatch.setattr(propagate, name, lru_cache(getattr(propagate, name).__wrapped__))
 
 
@@ -537,4 +537,4 @@ def test_the_rule_of_truncation(name: str, monkeypatch: Patch) -> None:
 def test_every_cache_is_rebuilt() -> None:
     """`rebuild` reaches all that holds a compiled equation."""
     cached = {name for name, value in vars(propagate).items() if hasattr(value, "cache_clear")}
-    assert cached == {"_step", "_folded", "_integrator"}
+    assert cached == {"_step", "folded", "_integrator"}
