@@ -84,7 +84,7 @@ def held(path: Path, route: str = "floquet") -> Nodes:
 
 @pytest.fixture
 def small_jobs(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(nodes.BATCH, "floquet", 8)
+    monkeypatch.setattr(nodes, "BATCH", 8)
 
 
 @pytest.fixture

@@ -1,0 +1,1 @@
+"""What a point costs, here and elsewhere: ``python -m benchmarks``, then ``benchmarks.page``."""
