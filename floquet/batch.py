@@ -124,14 +124,20 @@ def sweep(
     if equation.H:
         raise ValueError("H: must be absent, its period would not stay a multiple of 2 pi/Omega")
     numbers = np.broadcast_arrays(*(np.asarray(v, float) for v in (Omega, gamma, eta)))
-    for name, values in zip(("Omega", "gamma", "eta"), numbers, strict=True):
+    forcing = _Forcing(*(values.ravel() for values in numbers))
+    if not (np.isfinite(numbers).all() and forcing.Omega.min(initial=1.0) > 0.0):
+        _refuse(forcing)
+    march = _march(kernel, len(forcing.Omega), equation)
+    return Polynomials(*_many(equation, forcing, march))
+
+
+def _refuse(forcing: _Forcing) -> None:
+    """Name the value that will not do."""
+    for name, values in vars(forcing).items():
         bad = ~np.isfinite(values) | ((values <= 0.0) & (name == "Omega"))
         if np.any(bad):
             rule = "finite and greater than 0" if name == "Omega" else "finite"
             raise ValueError(f"{name} = {values[bad][0]}: must be {rule}")
-    forcing = _Forcing(*(values.ravel() for values in numbers))
-    march = _march(kernel, len(forcing.Omega), equation)
-    return Polynomials(*_many(equation, forcing, march))
 
 
 def _march(kernel: str, count: int, equation: HillEquation) -> March:

@@ -123,7 +123,10 @@ def _wrapped(function: Callable[..., Any]) -> March:
         phases = np.array(points.phases, np.intc)
         shapes = ((k, n + 1), (k,)) if n <= BY_MINORS else ((k, n, n), (k, n, n))
         one, other, growth, rate = (np.empty(shape) for shape in (*shapes, (k,), (k,)))
-        at = [array.ctypes.data for array in (*numbers, phases, RADII, one, other, growth, rate)]
+        at = [
+            array.__array_interface__["data"][0]
+            for array in (*numbers, phases, RADII, one, other, growth, rate)
+        ]
         if function(k, *at[:5], TOLERANCE, float(MOST_STEPS), *at[5:]):
             raise MemoryError(f"half a period of {n} coordinates does not fit into memory")
         if n > BY_MINORS:

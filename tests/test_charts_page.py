@@ -39,7 +39,7 @@ def test_python_blocks_print_what_they_say(aside: Path) -> None:
     namespace: dict[str, object] = {}
     seen = 0
     with distributed.LocalCluster(
-        n_workers=1, processes=False, dashboard_address=None, protocol="tcp"
+        n_workers=1, processes=False, dashboard_address=":0", protocol="tcp"
     ) as local:
         for block in blocks("python"):
             runs = block.replace("tcp://scheduler:8786", local.scheduler_address)
@@ -64,7 +64,8 @@ COMMANDS = [line for block in blocks("sh") for line in block.splitlines()]
 def test_commands_run(line: str, aside: Path, capsys: pytest.CaptureFixture[str]) -> None:
     words = shlex.split(line)[1:]
     assert main(words) == 0
-    assert (aside / words[words.index("--output") + 1]).stat().st_size > 0
+    (written,) = (words[k + 1] for k, w in enumerate(words) if w in ("--output", "--tongues"))
+    assert (aside / written).stat().st_size > 0
     assert "evaluations of P" in capsys.readouterr().out
 
 
