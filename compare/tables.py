@@ -14,6 +14,19 @@ from hill.listing import Case
 DATA = files("compare") / "data"
 TABLES = (1, 2, 3)
 
+UNIFORM = {"T0": 20.0, "K_theta": 0.5, "xi_G": 0.5}
+"""Table 1."""
+
+STEPPED = {
+    "T0": 20.0,
+    "K_theta": 1.0,
+    "xi_G": 0.5,
+    "xi_c": 0.6,
+    "area_ratio": 0.6,
+    "inertia_ratio": 0.6,
+}
+"""Table 2."""
+
 
 @dataclass(frozen=True)
 class Row:

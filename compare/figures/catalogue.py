@@ -8,22 +8,11 @@ from dataclasses import dataclass
 from math import inf
 from typing import Any, Literal
 
+from compare.tables import STEPPED, UNIFORM
+
 Kind = Literal[
     "frequencies", "growth", "regions", "critical", "compliance", "integral", "resonant", "coupled"
 ]
-
-UNIFORM = {"T0": 20.0, "K_theta": 0.5, "xi_G": 0.5}
-"""Table 1."""
-
-STEPPED = {
-    "T0": 20.0,
-    "K_theta": 1.0,
-    "xi_G": 0.5,
-    "xi_c": 0.6,
-    "area_ratio": 0.6,
-    "inertia_ratio": 0.6,
-}
-"""Table 2."""
 
 NORM = {"T0": 0.0, "K_theta": 1.0, "xi_G": 0.5}
 """Section 7.2."""
