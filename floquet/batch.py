@@ -26,7 +26,7 @@ KERNELS = ("auto", "compiled", "numpy")
 WORTH_COMPILING = 5000
 
 # Rounding, in ulps of the terms summed, for each radian of the fastest motion. Over 596 random
-# systems, held against 600-bit arithmetic, the true error was 0.39 of the bound at most by numpy and
+# systems, held against 600-bit arithmetic, the true error was 0.39 of the bound at most by numpy,
 # 0.27 compiled; tests/test_batch.py fails if it is ever above it.
 ULPS = 4.0
 
