@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 
 from benchmarks.systems import GAMMA, OMEGA, Contender, Float, Points, Solver, beam, grid
-from compare.charts.compute import Chart, chart
+from compare.charts.compute import chart
+from compare.charts.result import Chart
 from floquet import monodromy
 from hill import HillEquation, characteristic
 

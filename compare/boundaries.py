@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import brentq
 
-from compare.indicators import deepest, edges, indicator, interpolate_in_Omega
+from compare.indicators import TAIL, deepest, edges, growth, indicator, interpolate_in_Omega
 from compare.resonances import Resonance, half_width, modal
 from hill import HillEquation
 
@@ -46,6 +46,11 @@ class Family:
 
     equation: Callable[[float, float], HillEquation]
     polynomial: Callable[[HillEquation], Float]
+
+    @property
+    def error(self) -> float:
+        """How well P is known, over its largest coefficient: it is no smoother than that."""
+        return TAIL
 
     def P(self, Omega: float, y: float) -> Float:
         """Coefficients of P at a point."""
@@ -113,7 +118,10 @@ class Cutter:
         return self.resonance.Omega(modal(self.family.equation(1.0, y))[0])
 
     def cut(self, y: float, expected: Pair | None = None) -> Section | None:
-        """Section at y, None without resonance; `expected` are the edges' offsets from it."""
+        """Section at y; None without resonance, or with a longitudinal one beside it.
+
+        `expected` are the edges' offsets from the resonance.
+        """
         Omega = self.Omega(y)
         if not Omega > 0.0:
             return None
@@ -122,7 +130,10 @@ class Cutter:
         low, high = expected or (-width, width)
         reach = REACH * max(undamped, 0.5 * (high - low)) + SHIFT * equation.gamma**2 * Omega
         for _ in range(WIDER):
-            section = self._within(y, Omega, (low, high), reach, equation.damping)
+            try:
+                section = self._within(y, Omega, (low, high), reach, equation.damping)
+            except ValueError:  # P is not smooth there: a longitudinal resonance
+                return None
             # unstable, but edges out of sight: the tongue is wider than first order makes it
             if section.edges is not None or section.depth >= 0.0:
                 break
@@ -134,13 +145,16 @@ class Cutter:
         low, high = guess
         centre = Omega + 0.5 * (low + high)
         lo, hi = max(centre - reach, LOWEST * Omega), centre + reach
-        P = interpolate_in_Omega(lambda x: self.family.along(x, y), lo, hi)
+        P = interpolate_in_Omega(lambda x: self.family.along(x, y), lo, hi, self.family.error)
 
         def f(x: Float) -> Float:
             return indicator(self.resonance.indicator, P(x), x, eta)
 
+        def grows(x: Float) -> NDArray[np.bool_]:
+            return growth(P(x), x, eta) > (0.0 if eta > 0.0 else np.sqrt(self.family.error))
+
         bottom, depth = deepest(f, lo, hi)
-        pair = edges(f, lo, hi, (Omega + low, Omega + high), bottom)
+        pair = edges(f, lo, hi, (Omega + low, Omega + high), bottom, grows)
         return Section(y, Omega, pair, bottom, depth)
 
     def tip(self, a: Section, b: Section) -> Section | None:

@@ -43,8 +43,8 @@ class Interpolant:
         return np.asarray(chebyshev.chebval(t, self.coefficients).T)
 
 
-def interpolate(P: Function, lo: float, hi: float) -> Interpolant:
-    """Sample P on Chebyshev nodes, more of them until the last coefficients vanish.
+def interpolate(P: Function, lo: float, hi: float, tail: float = TAIL) -> Interpolant:
+    """Sample P on Chebyshev nodes, more of them until the last coefficients are below `tail`.
 
     Raises
     ------
@@ -59,17 +59,17 @@ def interpolate(P: Function, lo: float, hi: float) -> Interpolant:
         rows.append(P(0.5 * (lo + hi + (hi - lo) * added)))
         values = np.vstack(rows)
         c = chebyshev.chebfit(t, values, degree)
-        if np.abs(c[-2:]).max() <= TAIL * np.abs(c).max():
+        if np.abs(c[-2:]).max() <= tail * np.abs(c).max():
             return Interpolant(lo, hi, c)
     raise ValueError(f"from {lo:g} to {hi:g}: P is not smooth enough to be interpolated")
 
 
-def interpolate_in_Omega(P: Function, lo: float, hi: float) -> Function:
+def interpolate_in_Omega(P: Function, lo: float, hi: float, tail: float = TAIL) -> Function:
     """P over lo <= Omega <= hi, interpolated in 1/Omega.
 
     With a rigid bar P depends on Omega through F/Omega^2 and G/Omega^2: it is entire in 1/Omega.
     """
-    inner = interpolate(lambda s: P(1.0 / s), 1.0 / hi, 1.0 / lo)
+    inner = interpolate(lambda s: P(1.0 / s), 1.0 / hi, 1.0 / lo, tail)
     return lambda Omega: inner(1.0 / Omega)
 
 
@@ -168,13 +168,24 @@ def crossings(f: Function, x: Float) -> tuple[list[float], list[float]]:
 
 
 def edges(
-    f: Function, lo: float, hi: float, guess: tuple[float, float], bottom: float
+    f: Function,
+    lo: float,
+    hi: float,
+    guess: tuple[float, float],
+    bottom: float,
+    grows: Callable[[Float], NDArray[np.bool_]] | None = None,
 ) -> tuple[float, float] | None:
     """The pair of zeros between which f < 0 that is nearest to the guess, or None.
 
-    Zeros closer together than the grid's step, of a narrower tongue that crosses this one, pass
+    Two instabilities that overlap may make f positive where they do, so the zeros need not follow
+    one another; with `grows` given, the system must be unstable all the way between them. Zeros
+    closer together than the grid's step, of a narrower tongue that crosses this one, pass
     unnoticed, unless they enclose `bottom`.
     """
-    falls, rises = crossings(f, np.unique(np.append(np.linspace(lo, hi, GRID), bottom)))
-    pairs = [(a, b) for a in falls for b in rises if a < b]
+    x = np.unique(np.append(np.linspace(lo, hi, GRID), bottom))
+    falls, rises = crossings(f, x)
+    stable = x[~grows(x)] if grows is not None else np.empty(0)
+    pairs = [
+        (a, b) for a in falls for b in rises if a < b and not np.any((stable > a) & (stable < b))
+    ]
     return min(pairs, key=lambda p: abs(p[0] - guess[0]) + abs(p[1] - guess[1]), default=None)

@@ -4,7 +4,7 @@ The points run through half a period side by side (`floquet.march`), by numpy or
 C compiler and enough of them, by a compiled kernel (`floquet.compiled`).
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
 
@@ -24,6 +24,10 @@ KERNELS = ("auto", "compiled", "numpy")
 # Where "auto" compiles: building takes as long as numpy needs for about this many points. It does
 # not look whether the build is there already: the same call is to give the same digits.
 WORTH_COMPILING = 5000
+
+# Equations that share their matrices by fewer than this, on average, go together unshared: to start
+# a group takes numpy as long as 50 more points, an unshared point twice as long as a shared one.
+FEW = 32
 
 # Rounding, in ulps of the terms summed, for each radian of the fastest motion. Over 596 random
 # systems, held against 600-bit arithmetic, the true error was 0.39 of the bound at most by numpy,
@@ -71,8 +75,7 @@ def polynomials(equations: Sequence[HillEquation], *, kernel: Kernel = "auto") -
     equations : sequence of HillEquation
         All with the same number of coordinates; `eta` one number.
     kernel : {"auto", "compiled", "numpy"}, optional
-        "auto" builds the C kernel for `WORTH_COMPILING` equations or more, where there is a
-        compiler.
+        "auto" builds the C kernel where there is work for it, `WORTH_COMPILING`, and a compiler.
 
     Raises
     ------
@@ -86,12 +89,18 @@ def polynomials(equations: Sequence[HillEquation], *, kernel: Kernel = "auto") -
     n = equations[0].n
     if any(equation.n != n for equation in equations):
         raise ValueError("equations: must all have the same number of coordinates")
+    groups = _alike(equations)
+    if (
+        kernel != "compiled"
+        and not any(e.H for e in equations)
+        and FEW * len(groups) > len(equations)
+    ):
+        return Polynomials(*_unlike(equations))
     coefficients, errors = np.empty((len(equations), n + 1)), np.empty(len(equations))
-    for members in _alike(equations):
+    for members in groups:
         own = [equations[i] for i in members]
-        forcing = _Forcing(*(np.array(v) for v in zip(*map(_numbers, own), strict=True)))
         march = _march(kernel, len(equations), own[0])
-        coefficients[members], errors[members] = _many(own[0], forcing, march)
+        coefficients[members], errors[members] = _many(own[0], _forcing(own), march)
     return Polynomials(coefficients, errors)
 
 
@@ -141,10 +150,10 @@ def _refuse(forcing: _Forcing) -> None:
             raise ValueError(f"{name} = {values[bad][0]}: must be {rule}")
 
 
-def _march(kernel: str, count: int, equation: HillEquation) -> March:
+def _march(kernel: str, work: int, equation: HillEquation) -> March:
     if kernel not in KERNELS:
         raise ValueError(f"kernel = {kernel!r}: must be one of {', '.join(KERNELS)}")
-    if kernel == "numpy" or (kernel == "auto" and count < WORTH_COMPILING):
+    if kernel == "numpy" or (kernel == "auto" and work < WORTH_COMPILING):
         return by_numpy
     found = compiled.march(equation.n, 1 + len(equation.H))
     if found is None and kernel == "compiled":
@@ -152,8 +161,9 @@ def _march(kernel: str, count: int, equation: HillEquation) -> March:
     return found or by_numpy
 
 
-def _numbers(e: HillEquation) -> tuple[float, float, float]:
-    return e.Omega, e.gamma, e.damping
+def _forcing(equations: Sequence[HillEquation]) -> _Forcing:
+    numbers = ((e.Omega, e.gamma, e.damping) for e in equations)
+    return _Forcing(*(np.array(v) for v in zip(*numbers, strict=True)))
 
 
 def _alike(equations: Sequence[HillEquation]) -> list[list[int]]:
@@ -166,24 +176,43 @@ def _alike(equations: Sequence[HillEquation]) -> list[list[int]]:
 
 
 def _many(e: HillEquation, forcing: _Forcing, march: March) -> tuple[Float, Float]:
-    """P and its error under each forcing; neighbours in Omega go together, they need like steps."""
-    ordered = np.argsort(forcing.Omega, kind="stable")
+    """P and its error of one beam under each forcing."""
     ratio = e.ratio if e.H else 0
+    phases = (1, *(s * ratio for s in range(1, len(e.H) + 1)))
+    matrices = np.array([e.F, e.G, *e.H])
+    return _solve(matrices, forcing, phases, march, lambda i: _alone(e, forcing[i]))
+
+
+def _unlike(equations: Sequence[HillEquation]) -> tuple[Float, Float]:
+    """P and its error of equations each with F and G of its own."""
+    matrices = np.array([[e.F for e in equations], [e.G for e in equations]])
+    return _solve(matrices, _forcing(equations), (1,), by_numpy, lambda i: _bound(equations[i]))
+
+
+def _solve(
+    matrices: Float,
+    forcing: _Forcing,
+    phases: tuple[int, ...],
+    march: March,
+    alone: Callable[[int], tuple[Float, float]],
+) -> tuple[Float, Float]:
+    """P and its error; neighbours in Omega go together, they need like steps."""
+    ordered = np.argsort(forcing.Omega, kind="stable")
     Omega, gamma, eta = (v[ordered] for v in (forcing.Omega, forcing.gamma, forcing.eta))
     x = 1.0 / Omega**2
     points = Points(
-        matrices=np.array([e.F, e.G, *e.H]),
-        weights=np.array([x, gamma * x] + [x] * len(e.H)),
+        matrices=matrices if matrices.ndim == 3 else matrices[:, ordered],
+        weights=np.array([x, gamma * x] + [x] * (len(phases) - 1)),
         shift=0.25 * eta**2 * x,
-        phases=(1, *(s * ratio for s in range(1, len(e.H) + 1))),
+        phases=phases,
     )
     found = march(points)
-    P, errors = np.empty((len(x), e.n + 1)), np.empty(len(x))
+    P, errors = np.empty_like(found.P), np.empty(len(x))
     P[ordered] = found.P
     errors[ordered] = ULPS * EPS * (2.0 + 2.0 * np.pi * found.rate) * found.sensitivity
     # as in `monodromy`: much growth makes the half period's inverse a poor one
     for i in map(int, ordered[found.growth >= WELL]):
-        P[i], errors[i] = _alone(e, forcing[i])
+        P[i], errors[i] = alone(i)
     return P, errors
 
 
@@ -191,5 +220,9 @@ def _alone(e: HillEquation, forcing: _Forcing) -> tuple[Float, float]:
     Omega, gamma, eta = float(forcing.Omega), float(forcing.gamma), float(forcing.eta)
     omega_L = e.ratio * Omega if e.H else e.omega_L
     own = HillEquation(F=e.F, G=e.G, gamma=gamma, Omega=Omega, eta=eta, H=e.H, omega_L=omega_L)
-    m = monodromy(own)
+    return _bound(own)
+
+
+def _bound(equation: HillEquation) -> tuple[Float, float]:
+    m = monodromy(equation)
     return m.polynomial, m.error

@@ -4,7 +4,7 @@
 
 In the phase the period is 2 pi whatever Omega is, so all points share the steps and with them the
 Taylor coefficients of the cosines. The points sit side by side as columns: a Taylor coefficient of
-all of them is one array, and the recurrence for the next one is one matrix product.
+all of them is one array, and the recurrence for the next one is one product.
 """
 
 from dataclasses import dataclass
@@ -33,12 +33,12 @@ TINY = 1e-300
 
 @dataclass(frozen=True, eq=False)
 class Points:
-    """Equations that share their matrices and differ in the factors before them.
+    """Equations that differ in the factors before their matrices, and perhaps in these.
 
     Attributes
     ----------
-    matrices : (1 + terms, n, n) ndarray
-        F, then G and each H_s.
+    matrices : (1 + terms, n, n) or (1 + terms, k, n, n) ndarray
+        F, then G and each H_s; shared, or each point's own.
     weights : (1 + terms, k) ndarray
         x, then w_i, for each of k points.
     shift : (k,) ndarray
@@ -51,6 +51,11 @@ class Points:
     weights: Float
     shift: Float
     phases: tuple[int, ...]
+
+    def __getitem__(self, part: slice) -> "Points":
+        shared = self.matrices.ndim == 3
+        matrices = self.matrices if shared else self.matrices[:, part]
+        return Points(matrices, self.weights[:, part], self.shift[part], self.phases)
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,9 +93,8 @@ def by_numpy(points: Points) -> Found:
     """`March` without a compiler."""
     found = []
     for start in range(0, points.weights.shape[1], CHUNK):
-        own = slice(start, start + CHUNK)
-        chunk = Points(points.matrices, points.weights[:, own], points.shift[own], points.phases)
-        worst, nothing = _terms(chunk), np.zeros(points.matrices.shape[1:])
+        chunk = points[start : start + CHUNK]
+        worst, nothing = _terms(chunk), np.zeros(points.matrices.shape[-2:])
         steps = ceil(np.pi / longest_step(worst, nothing, ORDER, TOLERANCE))
         A, scale, growth = _folded(_fundamental(chunk, steps))
         fastest = np.full(len(A), rate(worst, nothing))
@@ -100,17 +104,23 @@ def by_numpy(points: Points) -> Found:
 
 def _terms(points: Points) -> list[Term]:
     """Moduli of the stiffness matrices, the largest of each, with their cosines' frequencies."""
-    largest = np.abs(points.weights).max(axis=1)
-    matrices = largest[:, None, None] * np.abs(points.matrices)
+    weights, matrices = np.abs(points.weights), np.abs(points.matrices)
+    if matrices.ndim == 4:
+        matrices = np.max(weights[:, :, None, None] * matrices, axis=1)
+    else:
+        matrices = weights.max(axis=1)[:, None, None] * matrices
     matrices[0] += points.shift.max() * np.eye(len(matrices[0]))
     return list(zip(matrices, (0.0, *map(float, points.phases)), strict=True))
 
 
 def _fundamental(points: Points, steps: int) -> Float:
     """Fundamental matrices of (u, du/dtheta) at theta = pi, shape (k, 2n, 2n)."""
-    n, k = points.matrices.shape[1], points.weights.shape[1]
+    n, k = points.matrices.shape[-1], points.weights.shape[1]
     h = np.pi / steps
-    matrices = np.hstack(list(points.matrices))
+    shared = points.matrices.ndim == 3
+    # side by side for one product, or with the points last, as everything else is
+    matrices = np.hstack(list(points.matrices)) if shared else np.moveaxis(points.matrices, 1, -1)
+    matrices = np.ascontiguousarray(matrices)
     weights, shift = -h * h * points.weights, h * h * points.shift
 
     a = np.zeros((ORDER + 1, n, 2 * n, k))
@@ -126,7 +136,11 @@ def _fundamental(points: Points, steps: int) -> Float:
             for i, cosine in enumerate(cosines, start=1):
                 product = (cosine[ORDER - 1 - j :] @ flat[: j + 1]).reshape(a[0].shape)
                 np.multiply(product, weights[i], out=force[i])
-            np.matmul(matrices, force.reshape(len(weights) * n, -1), out=a[j + 2].reshape(n, -1))
+            if shared:
+                stacked = force.reshape(len(weights) * n, -1)
+                np.matmul(matrices, stacked, out=a[j + 2].reshape(n, -1))
+            else:
+                np.einsum("irqk,iqck->rck", matrices, force, out=a[j + 2])
             if np.any(shift):
                 a[j + 2] += shift * a[j]
             a[j + 2] /= (j + 1) * (j + 2)

@@ -10,7 +10,8 @@ import pytest
 
 from compare.__main__ import main
 from compare.charts import chebyshev, surface
-from compare.charts.compute import Chart, chart
+from compare.charts.compute import chart
+from compare.charts.result import Chart
 from compare.charts.surface import evaluate
 from compare.charts.tongues import tongues
 from compare.resonances import half_width

@@ -1,5 +1,6 @@
 """Tongues as an engineer asks for them, points of a chart, boundaries of any two parameters."""
 
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -13,7 +14,7 @@ from compare.charts.tongues import distinct, tongues
 from compare.indicators import edge_function
 from floquet import monodromy
 from floquet.galerkin import galerkin
-from hill import UniformBeam, characteristic
+from hill import SteppedBeam, UniformBeam, characteristic
 
 BEAM = UniformBeam(T0=20.0, K_theta=0.5, xi_G=0.5)
 
@@ -107,7 +108,7 @@ def test_no_tongue_twice() -> None:
     for eta in (0.0, 0.01):
         own = [i.tongue for i in found(eta).values()]
         assert len(distinct(own)) == len(own)
-        assert len(distinct(own + own)) == len(own)
+        assert len(distinct(own + [replace(tongue) for tongue in own])) == len(own)
 
 
 def test_axes_may_be_exchanged() -> None:
@@ -198,3 +199,38 @@ def test_stability_changes_across_every_curve() -> None:
 def test_curves_refuse() -> None:
     with pytest.raises(ValueError, match="curves: need a chart of two parameters, not of 1"):
         curves(chart(BEAM, [("T0", 5.0, 9.0, 3)], forcing={"Omega": 1.0, "gamma": 0.1}))
+
+
+# ---- two tongues that cross, and longitudinal resonances -----------------------------------------
+
+
+def test_crossing_tongues_keep_their_names_and_widths() -> None:
+    """omega_(1) + omega_(B) and omega_(2) - omega_(1) of the stepped beam, about K_theta = 1.4."""
+    beam = SteppedBeam(T0=20.0, K_theta=1.0, xi_G=0.5, xi_c=0.6, area_ratio=0.6, inertia_ratio=0.6)
+    axes = [("Omega", 1.0, 1.8, 40), ("K_theta", 0.6, 2.0, 30)]
+    crossing = chart(beam, axes, forcing={"gamma": 0.1}, route="floquet")
+    named = {i.resonance.name: i for i in instabilities(crossing, orders=1)}
+    for name in ("omega_(1) + omega_(B)", "omega_(2) - omega_(1)"):
+        i = named[name]
+        # first order, beside the crossing: 1 and 11 per cent off; merged, they are 0.2 wide
+        assert i.width == pytest.approx(i.width_Hsu, rel=0.15)
+        assert i.tongue.y[0] < 1.0 < 1.9 < i.tongue.y[-1]
+
+
+def test_a_chart_across_longitudinal_resonances() -> None:
+    """Omega = omega_L runs across it: direct there, tongues broken off there, and no more."""
+    axes = [("Omega", 2.4, 3.0, 100), ("omega_L", 2.9, 3.6, 60)]
+    soft = chart(BEAM, axes, forcing={"gamma": 0.1}, route="floquet", tolerance=1e-6)
+    assert 0 < soft.direct < 6000
+    # cutting ends: no more than a few times the points themselves; measured 5,700
+    assert soft.nodes < 4 * 6000
+    for omega_L, Omega in ((3.55, 2.7), (2.95, 2.68)):
+        beam = replace(BEAM, omega_L=omega_L)
+        expected = characteristic(beam.equation(Omega, 0.1)).T
+        # P's 1e-6 over T
+        assert soft.at(Omega=Omega, omega_L=omega_L).T[0] == pytest.approx(expected, abs=1e-4)
+        assert expected > 0.02
+    with pytest.raises(ValueError, match=r"omega_L = 2\.95: the axial force is infinite"):
+        soft.at(Omega=2.95, omega_L=2.95)
+    (own,) = (t for t in tongues(soft, orders=1) if t.resonance.name == "omega_(2) + omega_(B)")
+    assert len(own.y) > 3

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from compare.charts.compute import Chart
+from compare.charts.result import Chart
 from compare.charts.surface import evaluate
 from compare.indicators import edge_function
 

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 
 from compare.boundaries import Tongue
-from compare.charts.compute import Chart
 from compare.charts.curves import Curve
+from compare.charts.result import Chart
 from compare.tables import all_rows
 from hill import SteppedBeam, UniformBeam
 

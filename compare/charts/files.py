@@ -6,8 +6,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from compare.charts.compute import Chart
 from compare.charts.instabilities import Instability
+from compare.charts.result import Chart
 
 
 def npz(chart: Chart) -> bytes:

@@ -1,5 +1,6 @@
 """What an engineer asks of a tongue: which frequencies, how wide, from where on, how violent."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -7,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from compare.boundaries import Tongue
-from compare.charts.compute import Chart
 from compare.charts.parameters import Axis
-from compare.charts.tongues import OnSurface, axes_of, on_surface, stations, tongues
+from compare.charts.result import Chart
+from compare.charts.tongues import OnSurface, axes_of, merged, on_surface, stations, tongues
 from compare.indicators import edge_function, growth
 from compare.resonances import Resonance, half_width, modal
 
@@ -38,7 +39,8 @@ class Instability:
     tips : tuple of (float, float)
         (Omega, y) where the edges meet within the chart.
     y : float
-        Where the tongue is widest; the following numbers are taken there.
+        Where the tongue is widest, apart from where it has run into another; the following numbers
+        are taken there.
     width, width_Hsu : float
         Its width there, and to first order in gamma (0 for k > 1: of higher order).
     T, Omega : float
@@ -84,13 +86,17 @@ def instabilities(
     _, y = axes_of(chart)
     curves = on_surface(chart)
     found = tongues(chart, orders) if boundaries is None else boundaries
-    described = [_described(chart, curves, y, tongue) for tongue in found]
+    described = [_described(chart, curves, y, tongue, found) for tongue in found]
     seen = [i for i in described if i.edge_error.min() < 0.25 * i.width]
     return tuple(sorted(seen, key=lambda i: -i.width))
 
 
-def _described(chart: Chart, curves: OnSurface, y_axis: Axis, tongue: Tongue) -> Instability:
-    resonance, widest = tongue.resonance, int(np.argmax(tongue.upper - tongue.lower))
+def _described(
+    chart: Chart, curves: OnSurface, y_axis: Axis, tongue: Tongue, others: Sequence[Tongue]
+) -> Instability:
+    # where two tongues have run into one another, a width is neither's
+    own = np.where(merged(tongue, others), 0.0, tongue.upper - tongue.lower)
+    resonance, widest = tongue.resonance, int(np.argmax(own))
     y, low, high = (float(v[widest]) for v in (tongue.y, tongue.lower, tongue.upper))
     equation = curves.equation(0.5 * (low + high), y)
     eta = equation.damping

@@ -2,7 +2,8 @@
 
 The coefficients of P are analytic in the smooth variables, so a tensor series in them converges
 geometrically. A rectangle whose series has not decayed at its allowed size is cut in two; one that
-is too small to cut again (a pole of the axial force runs through it) is left to direct evaluation.
+has fewer points than nodes, or is too small to cut again (a pole of the axial force runs through
+it), is left to direct evaluation.
 """
 
 from collections.abc import Callable
@@ -71,6 +72,7 @@ def fit(
     low: Float,
     high: Float,
     tolerance: float,
+    wanted: Callable[[Float, Float], float],
 ) -> Surface:
     """Cover a rectangle with series whose error is below `tolerance` times the largest |P|.
 
@@ -82,13 +84,17 @@ def fit(
         The rectangle.
     tolerance : float
         Relative to the largest coefficient of P in the piece.
+    wanted : callable
+        Corners of a rectangle to the number of points that are wanted there: one that has been cut
+        is not sampled at more points than that.
     """
     known = _Known(sample, np.asarray(low, float), np.asarray(high, float))
     pieces: list[Piece] = []
     pending = [(np.asarray(low, float), np.asarray(high, float), (0,) * len(low))]
     while pending:
         a, b, cuts = pending.pop()
-        piece, worst = _piece(known, a, b, tolerance)
+        most = wanted(a, b) if any(cuts) else np.inf
+        piece, worst = _piece(known, a, b, tolerance, most)
         if piece is not None:
             pieces.append(piece)
         elif cuts[worst] >= DEEPEST:
@@ -129,13 +135,18 @@ def to_local(piece: Piece, smooth: Float) -> Float:
     return np.clip((2.0 * smooth - piece.low - piece.high) / (piece.high - piece.low), -1.0, 1.0)
 
 
-def _piece(known: "_Known", a: Float, b: Float, tolerance: float) -> tuple[Piece | None, int]:
-    """A series that has decayed, or the axis along which it has not."""
+def _piece(
+    known: "_Known", a: Float, b: Float, tolerance: float, most: float
+) -> tuple[Piece | None, int]:
+    """A series that has decayed, or the axis along which it has not.
+
+    Without a series where that would take more than `most` nodes.
+    """
     axes = len(a)
     counts = [START] * axes
     over = tuple(range(1, axes + 1))
     before: list[tuple[int, float]] = [(0, np.inf)] * axes
-    while True:
+    while np.prod(counts) <= most:
         grid = [_nodes(a[k], b[k], counts[k]) for k in range(axes)]
         values, errors = known.on(grid)
         if not np.all(np.isfinite(values)):
@@ -159,6 +170,7 @@ def _piece(known: "_Known", a: Float, b: Float, tolerance: float) -> tuple[Piece
                 return None, int(k)
             before[k] = (counts[k], float(shares[k]))
         counts = [2 * n - 1 if s and n < MOST else n for n, s in zip(counts, short, strict=True)]
+    return Piece(a, b, None, np.inf), 0
 
 
 def _expected(n: int, tail: float, before: tuple[int, float], allowed: float) -> float:

@@ -1,6 +1,6 @@
 """Boundaries on a chart of Omega and another parameter: curves, each with its resonance."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from typing import Any
@@ -11,9 +11,10 @@ from numpy.typing import NDArray
 from compare.boundaries import Family as Curves
 from compare.boundaries import Tongue, follow
 from compare.charts import chebyshev
-from compare.charts.compute import Chart
 from compare.charts.parameters import Axis
+from compare.charts.result import Chart
 from compare.charts.surface import Surface
+from compare.indicators import TAIL
 from compare.resonances import Resonance, first_order, modal
 from floquet.batch import polynomials
 from hill import HillEquation
@@ -26,6 +27,9 @@ STATIONS = 33
 SAME = 0.02
 """Two tongues are one where their edges differ by no more than this share of the width; they are
 compared by straight lines between stations."""
+
+MOSTLY = 0.7
+"""Share of its stations from which a tongue that is another there is no tongue of its own."""
 
 
 @dataclass(frozen=True)
@@ -46,8 +50,20 @@ class OnSurface(Curves):
     y_to_smooth: Callable[[Float], Float] = np.asarray
     sections: dict[tuple[int, float], Float] = field(default_factory=dict)
 
+    @property
+    def error(self) -> float:
+        """The series', which are no smoother where one follows the other."""
+        assert self.surface is not None
+        return max(TAIL, self.surface.error)
+
     def along(self, Omega: Float, y: float) -> Float:
-        """Coefficients of P at several Omega, (k, n + 1); where there is no series, directly."""
+        """Coefficients of P at several Omega, (k, n + 1); beyond the chart's edge, directly.
+
+        Raises
+        ------
+        ValueError
+            A longitudinal resonance is too near for a series.
+        """
         assert self.surface is not None
         i, j = self.along_Omega, 1 - self.along_Omega
         u = 1.0 / np.asarray(Omega, float)
@@ -55,8 +71,10 @@ class OnSurface(Curves):
         found: dict[int, Float] = {}
         for k, piece in enumerate(self.surface.pieces):
             inside = (u >= piece.low[i]) & (u <= piece.high[i])
-            if piece.series is None or not piece.low[j] <= v <= piece.high[j]:
+            if not piece.low[j] <= v <= piece.high[j] or not np.any(inside):
                 continue
+            if piece.series is None:
+                raise ValueError("P has no series here: a longitudinal resonance is too near")
             if (k, y) not in self.sections:
                 local = (2.0 * v - piece.low[j] - piece.high[j]) / (piece.high[j] - piece.low[j])
                 row = chebyshev.basis(np.array([local]), piece.series.shape[1 + j])[0]
@@ -140,6 +158,8 @@ def tongues(
 ) -> tuple[Tongue, ...]:
     """Boundaries of the instabilities of the first orders over a chart of Omega and another one.
 
+    They break off next to a longitudinal resonance, where the chart has no series.
+
     Parameters
     ----------
     chart : Chart
@@ -170,20 +190,31 @@ def tongues(
     return distinct(found)
 
 
-def distinct(found: list[Tongue]) -> tuple[Tongue, ...]:
-    """Without those whose edges are another's.
+def distinct(found: Sequence[Tongue]) -> tuple[Tongue, ...]:
+    """Without those whose edges are another's nearly everywhere.
 
     A resonance of higher order that lies within a wide tongue is a guess that leads to its edges.
     """
     kept: list[Tongue] = []
     for tongue in sorted(found, key=lambda t: (t.resonance.order, -len(t.y))):
-        k = int(np.argmax(tongue.upper - tongue.lower))
-        edges, y = np.array([tongue.lower[k], tongue.upper[k]]), float(tongue.y[k])
-        near = SAME * (edges[1] - edges[0])
-        others = [pair for other in kept if (pair := other.at(y)) is not None]
-        if not any(np.abs(edges - pair).max() <= near for pair in others):
+        if np.mean(merged(tongue, kept)) <= MOSTLY:
             kept.append(tongue)
     return tuple(kept)
+
+
+def merged(tongue: Tongue, others: Sequence[Tongue]) -> NDArray[np.bool_]:
+    """At which y the tongue's edges are another's: itself, or both have run into one another."""
+    width = tongue.upper - tongue.lower
+    result = np.zeros(len(width), bool)
+    for other in others:
+        if other is not tongue:
+            within = (other.y[0] <= tongue.y) & (tongue.y <= other.y[-1])
+            apart = np.maximum(
+                np.abs(tongue.lower - np.interp(tongue.y, other.y, other.lower)),
+                np.abs(tongue.upper - np.interp(tongue.y, other.y, other.upper)),
+            )
+            result |= within & (apart <= SAME * width) & (width > 0.0)
+    return result
 
 
 def _one(

@@ -14,11 +14,12 @@ from rich.table import Table
 
 from compare.boundaries import Tongue
 from compare.charts import files, specification
-from compare.charts.compute import Chart, chart
+from compare.charts.compute import chart
 from compare.charts.curves import Curve, curves
 from compare.charts.draw import QUANTITIES, picture
 from compare.charts.instabilities import Instability, instabilities
 from compare.charts.nodes import ROUTES
+from compare.charts.result import Chart
 from compare.charts.tongues import axes_of, tongues
 from compare.cluster import connect
 from compare.commands.terminal import terminal
