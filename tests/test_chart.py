@@ -57,6 +57,13 @@ def test_interpolant_is_within_its_bound_of_either_route(wide: Chart) -> None:
     assert wide.nodes < 2500
 
 
+def test_a_series_that_misses_its_bound_is_no_chart(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A remainder that is not seen: nine points an axis are taken for enough."""
+    monkeypatch.setattr(chebyshev, "decay", lambda series, axis: 1e-14)
+    with pytest.raises(ValueError, match="tolerance: the series is off by"):
+        chart(BEAM, WIDE, route="floquet")
+
+
 def test_T_on_the_grid_is_T_of_the_equation(wide: Chart) -> None:
     x, y = (axis.points for axis in wide.axes)
     unstable = np.argwhere(wide.T > 1e-3)

@@ -69,7 +69,8 @@ def chart(
     Raises
     ------
     ValueError
-        Parameters out of range, an axis that is not one, a resume file of another chart.
+        Parameters out of range, an axis that is not one, a resume file of another chart; a series
+        that misses its own bound at one of the random points.
     """
     started = time.perf_counter()
     drawn = tuple(a if isinstance(a, Axis) else Axis(*a) for a in axes)
@@ -160,14 +161,26 @@ def _argument(log_R: Float, axes: tuple[Axis, ...], family: Family) -> Float:
 
 
 def _check(fitted: surface.Surface, axes: tuple[Axis, ...], family: Family) -> float:
-    """Largest difference from direct evaluation at random points."""
+    """Largest difference from direct evaluation at random points.
+
+    Raises
+    ------
+    ValueError
+        It exceeds the series' own bound, which then is none.
+    """
     low, high = np.array([axis.span for axis in axes]).T
     smooth = low + (high - low) * np.random.default_rng(0).random((CHECKS, len(axes)))
-    P, _ = surface.evaluate(fitted, smooth)
+    P, error = surface.evaluate(fitted, smooth)
     known = np.flatnonzero(np.isfinite(P[0])) if len(P) > 1 else np.array([], int)
     if not len(known):
         return 0.0
     values = from_smooth(axes, smooth[known])
     named = {axis.name: x for axis, x in zip(axes, values.T, strict=True)}
     other = polynomials(family.equations(named, closed_form=False))
-    return float(np.max(np.abs(P[:, known].T - other.coefficients)))
+    apart = np.max(np.abs(P[:, known].T - other.coefficients), axis=1)
+    if np.any(apart > error[known] + other.errors):
+        raise ValueError(
+            f"tolerance: the series is off by {apart.max():.0e} where its bound is "
+            f"{error[known].max():.0e}; ask for a smaller one"
+        )
+    return float(apart.max())
