@@ -7,7 +7,7 @@ import shutil
 import subprocess
 import tempfile
 from collections.abc import Callable
-from functools import lru_cache
+from functools import cache, lru_cache
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
@@ -45,7 +45,7 @@ def march(n: int, terms: int) -> March | None:
     """The compiled march for n coordinates and `terms` cosines; None where it cannot be had.
 
     Built once and kept in the user's cache directory (``$XDG_CACHE_HOME`` or ``~/.cache``), under
-    a name made of source, compiler and options.
+    a name made of source, compiler and options; where that cannot be written, for this process.
     """
     command = compiler()
     if command is None or n > MOST_COORDINATES:
@@ -97,9 +97,18 @@ def _blocks(n: int) -> tuple[int, int]:
 
 def _folder() -> Path:
     home = os.environ.get("XDG_CACHE_HOME")
-    folder = (Path(home) if home else Path.home() / ".cache") / "floquet-crosscheck"
-    folder.mkdir(mode=0o700, parents=True, exist_ok=True)
-    return folder
+    try:
+        folder = (Path(home) if home else Path.home() / ".cache") / "floquet-crosscheck"
+        folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+    except (OSError, RuntimeError):  # read-only, or no home at all
+        return Path(_while_running().name)
+    return folder if os.access(folder, os.W_OK) else Path(_while_running().name)
+
+
+@cache
+def _while_running() -> "tempfile.TemporaryDirectory[str]":
+    """A place for this process alone, where nothing can be kept."""
+    return tempfile.TemporaryDirectory(prefix="floquet-crosscheck-")
 
 
 def _cpu() -> str:

@@ -141,7 +141,9 @@ def test_a_compiler_is_never_required(monkeypatch: pytest.MonkeyPatch, tmp_path:
 
     blocked = tmp_path / "a file"
     blocked.write_text("")
-    refused(CC="cc", folder=blocked)  # nowhere to keep it
+    monkeypatch.setenv("XDG_CACHE_HOME", str(blocked))  # nowhere to keep it: built all the same
+    compiled.march.cache_clear()
+    assert compiled.march(2, 1) is not None
     failing = tmp_path / "cc"
     failing.write_text('#!/bin/sh\n[ "$1" = --version ]\n')
     failing.chmod(0o700)
