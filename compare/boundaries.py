@@ -13,7 +13,15 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import brentq
 
-from compare.indicators import TAIL, deepest, edges, growth, indicator, interpolate_in_Omega
+from compare.indicators import (
+    TAIL,
+    NotSmooth,
+    deepest,
+    edges,
+    growth,
+    indicator,
+    interpolate_in_Omega,
+)
 from compare.resonances import Resonance, half_width, modal
 from hill import HillEquation
 
@@ -132,7 +140,7 @@ class Cutter:
         for _ in range(WIDER):
             try:
                 section = self._within(y, Omega, (low, high), reach, equation.damping)
-            except ValueError:  # P is not smooth there: a longitudinal resonance
+            except NotSmooth:
                 return None
             # unstable, but edges out of sight: the tongue is wider than first order makes it
             if section.edges is not None or section.depth >= 0.0:
@@ -150,8 +158,11 @@ class Cutter:
         def f(x: Float) -> Float:
             return indicator(self.resonance.indicator, P(x), x, eta)
 
+        # undamped, of two z that meet P's error makes its root
+        rounding = 0.0 if eta > 0.0 else np.sqrt(self.family.error)
+
         def grows(x: Float) -> NDArray[np.bool_]:
-            return growth(P(x), x, eta) > (0.0 if eta > 0.0 else np.sqrt(self.family.error))
+            return growth(P(x), x, eta) > rounding
 
         bottom, depth = deepest(f, lo, hi)
         pair = edges(f, lo, hi, (Omega + low, Omega + high), bottom, grows)

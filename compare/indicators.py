@@ -29,6 +29,10 @@ DEGREES = (8, 16, 32, 64, 128, 256)
 GRID = 241
 
 
+class NotSmooth(ValueError):
+    """P cannot be interpolated on a line: a longitudinal resonance is on it, or too near."""
+
+
 @dataclass(frozen=True, eq=False)
 class Interpolant:
     """P along a line by Chebyshev polynomials, coefficient by coefficient."""
@@ -48,7 +52,7 @@ def interpolate(P: Function, lo: float, hi: float, tail: float = TAIL) -> Interp
 
     Raises
     ------
-    ValueError
+    NotSmooth
         `DEGREES` do not suffice: the line is too long, or passes a pole of G.
     """
     t, rows = np.empty(0), []
@@ -61,7 +65,7 @@ def interpolate(P: Function, lo: float, hi: float, tail: float = TAIL) -> Interp
         c = chebyshev.chebfit(t, values, degree)
         if np.abs(c[-2:]).max() <= tail * np.abs(c).max():
             return Interpolant(lo, hi, c)
-    raise ValueError(f"from {lo:g} to {hi:g}: P is not smooth enough to be interpolated")
+    raise NotSmooth(f"from {lo:g} to {hi:g}: P is not smooth enough to be interpolated")
 
 
 def interpolate_in_Omega(P: Function, lo: float, hi: float, tail: float = TAIL) -> Function:

@@ -26,7 +26,7 @@ KERNELS = ("auto", "compiled", "numpy")
 WORTH_COMPILING = 5000
 
 # Equations that share their matrices by fewer than this, on average, go together unshared: to start
-# a group takes numpy as long as 50 more points, an unshared point twice as long as a shared one.
+# a group takes numpy as long as 50 more points, an unshared point a third longer than a shared one.
 FEW = 32
 
 # Rounding, in ulps of the terms summed, for each radian of the fastest motion. Over 596 random

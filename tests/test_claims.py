@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from commands import refusal
 from scipy.integrate import solve_ivp
 
 import compare.commands.claims as command
@@ -312,9 +313,6 @@ def test_bad_input_is_one_line(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    assert main(["claims", *words]) == 2
-    captured = capsys.readouterr()
-    assert captured.out == ""
-    assert captured.err.startswith("verify claims: ")
-    assert captured.err.count("\n") == 1
-    assert says in captured.err
+    line = refusal(["claims", *words], capsys)
+    assert line.startswith("verify claims: ")
+    assert says in line

@@ -11,6 +11,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from commands import refusal
 
 import compare.commands.rows as rows_command
 from compare import render, verify
@@ -117,12 +118,9 @@ def test_bad_input_is_one_line(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    assert main(words) == 2
-    captured = capsys.readouterr()
-    assert captured.out == ""
-    assert captured.err.startswith("verify: ")
-    assert captured.err.count("\n") == 1
-    assert says in captured.err
+    line = refusal(words, capsys)
+    assert line.startswith("verify: ")
+    assert says in line
 
 
 @pytest.mark.parametrize(

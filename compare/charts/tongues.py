@@ -14,7 +14,7 @@ from compare.charts import chebyshev
 from compare.charts.parameters import Axis
 from compare.charts.result import Chart
 from compare.charts.surface import Surface
-from compare.indicators import TAIL
+from compare.indicators import TAIL, NotSmooth
 from compare.resonances import Resonance, first_order, modal
 from floquet.batch import polynomials
 from hill import HillEquation
@@ -61,7 +61,7 @@ class OnSurface(Curves):
 
         Raises
         ------
-        ValueError
+        NotSmooth
             A longitudinal resonance is too near for a series.
         """
         assert self.surface is not None
@@ -74,7 +74,7 @@ class OnSurface(Curves):
             if not piece.low[j] <= v <= piece.high[j] or not np.any(inside):
                 continue
             if piece.series is None:
-                raise ValueError("P has no series here: a longitudinal resonance is too near")
+                raise NotSmooth("P has no series here: a longitudinal resonance is too near")
             if (k, y) not in self.sections:
                 local = (2.0 * v - piece.low[j] - piece.high[j]) / (piece.high[j] - piece.low[j])
                 row = chebyshev.basis(np.array([local]), piece.series.shape[1 + j])[0]
