@@ -66,6 +66,8 @@ def summary(report: Report) -> tuple[str, str]:
     found = [f"{n} {one if n == 1 else many}" for n, one, many in counts if n]
     verdicts = "verdict on stability is" if s.flips == 1 else "verdicts on stability are"
     wrong = f"{s.flips} printed {verdicts} wrong" if s.flips else "no printed verdict is wrong"
+    if s.undecided:
+        wrong += f", {s.undecided} {'is' if s.undecided == 1 else 'are'} undecided"
     return (
         f"{s.rows} printed value{'s' * (s.rows != 1)}: {', '.join(found)}; {wrong}.",
         f"The two routes agree on {s.routes_agree} of {s.rows} within their own error bounds; "
@@ -184,7 +186,8 @@ def _route(route: Route) -> dict[str, Any]:
         "z": _pairs(route.z),
         "polynomial": [float(p) for p in route.polynomial],
         "error": route.error,
-        "stable": bool(route.stable),
+        "verdict": route.verdict,
+        "stable": route.stable,
     }
 
 

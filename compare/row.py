@@ -15,7 +15,7 @@ from floquet import monodromy
 from floquet.galerkin import galerkin
 from hill import HillEquation, characteristic, determinant, residues
 from hill.listing import stab
-from hill.stability import stability
+from hill.stability import Verdict, stability
 
 Complex = NDArray[np.complexfloating[Any, Any]]
 Cause = Literal["agrees", "truncation", "listing-slip", "misprint", "unexplained"]
@@ -44,7 +44,12 @@ class Route:
     z: Complex
     polynomial: NDArray[np.floating[Any]]
     error: float
-    stable: bool
+    verdict: Verdict
+
+    @property
+    def stable(self) -> bool:
+        """Whether this route shows the row to be stable."""
+        return self.verdict == "stable"
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,14 +68,16 @@ class Outcome:
     matrices : float
         Largest difference between the two routes' F, G and H, over their largest element.
     routes_agree : bool
-        Whether `difference` is within the sum of the two errors, and the verdicts are the same.
+        Whether `difference` is within the sum of the two errors, and the verdicts do not oppose
+        each other.
     cause : str
         Why the printed value differs: "agrees", "truncation", "listing-slip", "misprint" or
         "unexplained".
     expected : bool
         False where `cause` is "unexplained" and the errata do not list the row as open.
     verdict_printed, verdict : str
-        "stable" or "unstable"; "undecided" where the routes differ.
+        "stable" or "unstable"; `verdict` is "undecided" where neither route shows one, or one
+        route the opposite of the other.
     note : str
     """
 
@@ -86,13 +93,13 @@ class Outcome:
     cause: Cause
     expected: bool
     verdict_printed: str
-    verdict: str
+    verdict: Verdict
     note: str
 
     @property
     def flips(self) -> bool:
-        """Whether the printed verdict on stability is wrong."""
-        return self.verdict != self.verdict_printed
+        """Whether the printed verdict on stability is shown to be wrong."""
+        return self.verdict not in ("undecided", self.verdict_printed)
 
 
 def check(row: Row, *, method: Method = "taylor", modes: int = 2) -> Outcome:
@@ -109,10 +116,10 @@ def check(row: Row, *, method: Method = "taylor", modes: int = 2) -> Outcome:
     as_run = stab(constants(row.run["beam"]), row.case, row.Omega)
     closed, quadrature = equation(row, modes), witness(row, modes)
     h, f = characteristic(closed), monodromy(quadrature, method=method)
-    hill = Route(h.T, h.T_error, h.z, h.polynomial, h.error, h.stable)
-    floquet = Route(f.T, f.T_error, f.z, f.polynomial, f.error, f.stable)
+    hill = Route(h.T, h.T_error, h.z, h.polynomial, h.error, h.verdict)
+    floquet = Route(f.T, f.T_error, f.z, f.polynomial, f.error, f.verdict)
     difference = float(np.max(np.abs(h.polynomial - f.polynomial)))
-    verdict = _verdict(h.stable) if h.stable == f.stable else "undecided"
+    verdict, opposed = _joint(h.verdict, f.verdict)
     own = closed if modes == 2 else equation(row, 2)
     judged = h if modes == 2 else characteristic(own)
     cause, note = _cause(row, own, (judged.T, judged.z), (as_run.STAB1, as_run.roots))
@@ -125,10 +132,10 @@ def check(row: Row, *, method: Method = "taylor", modes: int = 2) -> Outcome:
         floquet=floquet,
         difference=difference,
         matrices=_apart(closed, quadrature),
-        routes_agree=difference <= h.error + f.error and verdict != "undecided",
+        routes_agree=difference <= h.error + f.error and not opposed,
         cause=cause,
         expected=cause != "unexplained" or is_open(row.id),
-        verdict_printed=_verdict(row.T == 0.0),
+        verdict_printed="stable" if row.T == 0.0 else "unstable",
         verdict=verdict,
         note=note if modes == 2 else f"{modes} modes; {note}".removesuffix("; "),
     )
@@ -148,8 +155,12 @@ def _damping(row: Row) -> dict[str, Any]:
     return {"eta": row.run["eta"], "initial_terms": TERMS if row.initial_conditions else 0}
 
 
-def _verdict(stable: bool) -> str:
-    return "stable" if stable else "unstable"
+def _joint(one: Verdict, other: Verdict) -> tuple[Verdict, bool]:
+    """What both routes show together, and whether they show opposites: one may know more."""
+    shown = {one, other} - {"undecided"}
+    if len(shown) == 1:
+        return shown.pop(), False
+    return "undecided", bool(shown)
 
 
 def _apart(one: HillEquation, other: HillEquation) -> float:

@@ -23,6 +23,7 @@ class Summary:
     misprint: int
     unexplained: int
     flips: int
+    undecided: int
     largest_difference: float
     """Largest |P_hill - P_floquet| over the largest coefficient."""
     largest_share: float
@@ -57,6 +58,7 @@ class Report:
             misprint=caused("misprint"),
             unexplained=caused("unexplained"),
             flips=sum(o.flips for o in outcomes),
+            undecided=sum(o.verdict == "undecided" for o in outcomes),
             largest_difference=max(
                 (o.difference / float(abs(o.hill.polynomial).max()) for o in outcomes), default=0.0
             ),

@@ -34,6 +34,9 @@ FEW = 32
 # 0.27 compiled; tests/test_batch.py fails if it is ever above it.
 ULPS = 4.0
 
+# Relative bound above which `monodromy` is asked, whose two runs know better.
+POOR = 1e-10
+
 
 @dataclass(frozen=True, eq=False)
 class Polynomials:
@@ -208,12 +211,35 @@ def _solve(
     )
     found = march(points)
     P, errors = np.empty_like(found.P), np.empty(len(x))
+    size = np.sum(np.abs(found.P), axis=1)
+    data = _moved_by_data(points.matrices[0], x, points.shift)
     P[ordered] = found.P
     errors[ordered] = ULPS * EPS * (2.0 + 2.0 * np.pi * found.rate) * found.sensitivity
+    errors[ordered] += ULPS * EPS * data * size
     # as in `monodromy`: much growth makes the half period's inverse a poor one
-    for i in map(int, ordered[found.growth >= WELL]):
+    poor = ~((found.growth < WELL) & (errors[ordered] <= POOR * size))
+    for i in map(int, ordered[poor]):
         P[i], errors[i] = alone(i)
     return P, errors
+
+
+def _moved_by_data(F: Float, x: Float, shift: Float) -> Float:
+    """How far P moves, over its size, per unit of relative rounding in x F - shift, (k,).
+
+    A square w^2 moves by what l dF r says, l and r the eigenvectors, and cos 2 pi w by at most
+    pi/w times that, or 2 pi^2.
+    """
+    values, right = np.linalg.eig(F if F.ndim == 3 else F[None])
+    try:
+        left = np.linalg.inv(right)
+    except np.linalg.LinAlgError:  # defective to the last bit
+        return np.full(len(x), np.inf)
+    left, right = np.abs(left), np.abs(right)
+    of_F = np.einsum("kij,kjl,kli->ki", left, np.abs(F if F.ndim == 3 else F[None]), right)
+    of_shift = np.einsum("kij,kji->ki", left, right)
+    w = np.sqrt(np.abs(values * x[:, None] - shift[:, None]))
+    moved = of_F * x[:, None] + of_shift * shift[:, None]
+    return np.asarray(np.sum(np.pi / np.maximum(w, 0.5 / np.pi) * moved, axis=1))
 
 
 def _alone(e: HillEquation, forcing: _Forcing) -> tuple[Float, float]:

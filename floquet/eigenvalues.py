@@ -1,5 +1,6 @@
-"""Eigenvalues of a matrix whose characteristic polynomial is known to within an error."""
+"""Discs that hold the eigenvalues of a matrix which is known to within an error."""
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -7,22 +8,111 @@ from numpy.typing import NDArray
 
 Complex = NDArray[np.complexfloating[Any]]
 Float = NDArray[np.floating[Any]]
+Bool = NDArray[np.bool_]
+EPS = float(np.finfo(float).eps)
+
+RADII = 2.0 ** np.arange(-54.0, 3.5, 0.5)
+"""Radii tried about an eigenvalue, in units of 1 + its modulus."""
 
 
-def eigenvalues(A: Float, error: float) -> tuple[Complex, Float]:
-    """Eigenvalues by descending real part, and a radius about each that the true ones keep to.
+@dataclass(frozen=True, eq=False)
+class Discs:
+    """Discs about computed eigenvalues.
 
-    Rouche: where |P| exceeds the most its error can amount to, all round a circle, the true
-    polynomial has as many roots inside as the computed one.
+    Attributes
+    ----------
+    centre : (n,) complex ndarray
+        By descending real part.
+    radius : (n,) ndarray
+        Where nothing better is known, of a disc about the centre that holds all of them.
+    together : (n, n) bool ndarray
+        Which discs form one region; it holds as many true eigenvalues as it has discs.
     """
-    z = np.linalg.eigvals(A).astype(complex)
-    z = z[np.lexsort((z.imag, -z.real))]
-    radii = 2.0 ** np.arange(-52, 8)
-    around = np.exp(2j * np.pi * np.arange(24) / 24)
-    points = z[:, None, None] + radii[:, None] * around
-    value = np.abs(np.prod(points[..., None] - z, axis=-1))
-    # 24 points on a circle miss at most a factor cos(pi/24)^n of its smallest value
-    allowed = 2.0 * error * np.sum(np.abs(points)[..., None] ** np.arange(len(z)), axis=-1)
-    clear = np.all(value > allowed, axis=-1)
-    first = np.where(clear.any(axis=1), clear.argmax(axis=1), len(radii) - 1)
-    return z, radii[first]
+
+    centre: Complex
+    radius: Float
+    together: Bool
+
+    @property
+    def real(self) -> Bool:
+        """Which hold one eigenvalue alone, that is real as the matrix is."""
+        return (self.centre.imag == 0.0) & (np.sum(self.together, axis=1) == 1)
+
+
+def eigenvalues(A: Float) -> Complex:
+    """Computed eigenvalues, by descending real part."""
+    values = np.linalg.eigvals(A).astype(complex)
+    return values[np.lexsort((values.imag, -values.real))]
+
+
+def from_matrix(A: Float, error: Float) -> Discs:
+    """Discs from the matrix itself: Gershgorin's, in the basis of its eigenvectors.
+
+    With X the computed eigenvectors and W their inverse, |W| (|A X - X L| + error |X|) bounds what
+    X^-1 A' X - L can be for every A' within `error` of A. As good for eigenvalues that meet with
+    eigenvectors of their own as for simple ones; useless near a defective one.
+    """
+    n = len(A)
+    values, X = np.linalg.eig(A)
+    order = np.lexsort((values.imag, -values.real))
+    values, X = values[order].astype(complex), X[:, order]
+    # a norm of A bounds every eigenvalue
+    everything = 1.01 * float(np.max(np.sum(np.abs(A) + error, axis=1)))
+    nothing = Discs(values, everything + np.abs(values), np.ones((n, n), bool))
+    try:
+        W = np.linalg.inv(X)
+    except np.linalg.LinAlgError:
+        return nothing
+    rounding = 4.0 * (n + 2) * EPS
+    size_W, size_X = np.abs(W), np.abs(X)
+    summed = np.abs(A) @ size_X + size_X * np.abs(values)
+    residual = np.abs(A @ X - X * values) + rounding * summed
+    apart = size_W @ (residual + error @ size_X)
+    # W is the inverse but for this much
+    defect = float(np.max(np.sum(np.abs(W @ X - np.eye(n)) + rounding * (size_W @ size_X), axis=1)))
+    if not defect < 0.5:
+        return nothing
+    radius = np.sum(apart, axis=1) + defect / (1.0 - defect) * np.max(np.sum(apart, axis=1))
+    radius = np.minimum(1.01 * radius, everything + np.abs(values))
+    return Discs(values, radius, _touching(values, radius))
+
+
+def from_polynomial(values: Complex, p: Float, errors: Float) -> Discs:
+    """Discs about eigenvalues from the characteristic polynomial and the error of each coefficient.
+
+    Where on a circle about a root the computed polynomial exceeds all that its error can amount to,
+    no root crosses the circle while the error grows from nothing to all of it (Rouche): each true
+    root is in the disc about its own computed one, also in a cluster.
+
+    Parameters
+    ----------
+    values : (n,) complex ndarray
+    p, errors : (n + 1,) ndarray
+        Monic, highest power first.
+    """
+    n = len(values)
+    size = 1.0 + np.abs(values)
+    with np.errstate(over="ignore", invalid="ignore"):
+        # values are the roots of a polynomial that is not quite p
+        again, moduli = np.poly(values), np.poly(-np.abs(values))
+        unsure = errors + np.abs(p - again) + 4.0 * n * EPS * np.abs(moduli)
+        unsure[0] = 0.0
+        radii = RADII * size[:, None]
+        apart = np.abs(values[:, None] - values)
+        gap = np.abs(apart[:, None, :] - radii[:, :, None])
+        gap -= 4.0 * EPS * (size[:, None] + size)[:, None, :]
+        moved = np.polyval(unsure, np.abs(values)[:, None] + radii)
+        clear = np.prod(np.maximum(gap, 0.0), axis=2) > 1.01 * moved
+    # Cauchy: every root is within 1 + max |p_k|
+    everything = 1.0 + float(np.max(np.abs(p[1:]) + errors[1:])) + size
+    radius = np.where(clear.any(axis=1), radii[np.arange(n), clear.argmax(axis=1)], everything)
+    # a circle that holds no other computed root holds no other true one
+    return Discs(values, radius, (apart <= radius[:, None]) | np.eye(n, dtype=bool))
+
+
+def _touching(centre: Complex, radius: Float) -> Bool:
+    """Which discs hang together, directly or through others."""
+    together = np.abs(centre[:, None] - centre) <= radius[:, None] + radius
+    for _ in range(int(np.ceil(np.log2(len(centre) + 1)))):
+        together = together @ together
+    return np.asarray(together | np.eye(len(centre), dtype=bool))

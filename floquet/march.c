@@ -7,7 +7,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* As wide as the machine's vectors: twice as many take eleven times as long with AVX2. */
+#if defined(__AVX512F__)
 #define LANES 8
+#elif defined(__AVX__)
+#define LANES 4
+#else
+#define LANES 2
+#endif
 #define WIDE (2 * N)
 #define MOST_KEPT 64 /* steps whose cosines are kept for the next columns */
 #define TINY 1e-300 /* keeps v > 0 where a row of S is 0 */
@@ -16,6 +23,15 @@
 #define INLINE static inline __attribute__((always_inline))
 
 typedef double lanes __attribute__((vector_size(8 * LANES)));
+typedef long long bits __attribute__((vector_size(8 * LANES)));
+
+/* The larger of top and |x|, lane by lane; top where x is not a number, which the end tells. */
+INLINE lanes larger(lanes top, lanes x)
+{
+    x = (lanes)((bits)x & 0x7fffffffffffffffLL);
+    bits more = x > top;
+    return (lanes)(((bits)x & more) | ((bits)top & ~more));
+}
 
 /* Taylor coefficients of cos(p (theta + x h)) in x, one series a cosine. */
 static void cosines(double *series, const int *phases, double theta, double h)
@@ -49,6 +65,8 @@ static double perron(int size, const double *S)
         if (!(sum < INFINITY))
             return INFINITY;
         bound = fmin(bound, worst);
+        if (sum == 0.0) /* nothing is left of v: S is nilpotent */
+            return 0.0;
         for (int r = 0; r < size; r++)
             v[r] = moved[r] / sum + TINY;
     }
@@ -175,8 +193,10 @@ static int invert(double m[WIDE][2 * WIDE])
     return 1;
 }
 
-/* A = 2 p a - I, the first block of scale = |U^-1| |U|, and a bound on scale's Perron root. */
-static double finish(double U[WIDE][WIDE], double A[N][N], double first[N][N])
+/* A = 2 p a - I, the first block of scale = |U^-1| top, and a bound on scale's Perron root; top is
+ * the largest that each element of |U| has been. */
+static double finish(double U[WIDE][WIDE], double top[WIDE][WIDE], double A[N][N],
+                     double first[N][N])
 {
     double m[WIDE][2 * WIDE], scale[WIDE * WIDE] = {0.0};
     for (int r = 0; r < WIDE; r++)
@@ -188,7 +208,7 @@ static double finish(double U[WIDE][WIDE], double A[N][N], double first[N][N])
     for (int r = 0; r < WIDE; r++)
         for (int q = 0; q < WIDE; q++)
             for (int c = 0; c < WIDE; c++)
-                scale[r * WIDE + c] += fabs(m[r][WIDE + q]) * fabs(U[q][c]);
+                scale[r * WIDE + c] += fabs(m[r][WIDE + q]) * top[q][c];
     for (int r = 0; r < N; r++)
         for (int c = 0; c < N; c++) {
             double sum = 0.0;
@@ -219,6 +239,21 @@ static void polynomial(double A[N][N], double first[N][N], double *P, double *se
              + A[0][2] * (A[1][0] * A[2][1] - A[1][1] * A[2][0]));
 #endif
     *sensitivity = 0.0;
+    /* a minor's rounding is of the size of its products, whatever they cancel */
+    double summed = 0.0;
+#if N == 3
+    double a[N][N], second = 0.0, third;
+    for (int i = 0; i < N; i++)
+        for (int j = 0; j < N; j++)
+            a[i][j] = fabs(A[i][j]);
+    third = a[0][0] * a[1][1] * a[2][2] + a[0][1] * a[1][2] * a[2][0] + a[0][2] * a[2][1] * a[1][0];
+    for (int i = 0; i < N; i++) {
+        int j = (i + 1) % N, k = (i + 2) % N;
+        second += a[i][i] * a[j][j] + a[i][j] * a[j][i];
+        third += a[i][j] * a[j][i] * a[k][k];
+    }
+    summed = fmax(second, third);
+#endif
     for (int j = 0; j < N; j++) {
         double moved = 0.0, next[N][N];
         for (int r = 0; r < N; r++)
@@ -231,6 +266,7 @@ static void polynomial(double A[N][N], double first[N][N], double *P, double *se
         *sensitivity = fmax(*sensitivity, moved);
         memcpy(B, next, sizeof B);
     }
+    *sensitivity += summed;
 }
 #endif
 
@@ -243,7 +279,8 @@ int march(int points, const double *matrices, const double *weights, const doubl
           double *other, double *growth, double *rate)
 {
     lanes(*a)[FLAT] = aligned_alloc(64, sizeof(lanes[ORDER + 1][FLAT]));
-    double(*U)[WIDE][WIDE] = malloc(sizeof(double[LANES][WIDE][WIDE]));
+    double(*U)[WIDE][WIDE] = malloc(sizeof(double[2 * LANES][WIDE][WIDE]));
+    double(*peak)[WIDE][WIDE] = U + LANES;
     double *series = malloc(sizeof(double) * TERMS * ORDER * MOST_KEPT);
     if (!a || !U || !series) {
         free(a);
@@ -282,23 +319,32 @@ int march(int points, const double *matrices, const double *weights, const doubl
                 for (int l = 0; l < LANES; l++)
                     a[derivative][r * COLUMNS + c][l] = derivative ? h : 1.0;
             }
+            lanes top[2][FLAT];
+            for (int e = 0; e < FLAT; e++)
+                for (int d = 0; d < 2; d++)
+                    top[d][e] = larger((lanes){0.0}, a[d][e]);
             for (int step = 0; within && step < steps; step++) {
                 double *own = series + (step % MOST_KEPT) * TERMS * ORDER;
                 if (first == 0 || steps > MOST_KEPT)
                     cosines(own, phases, step * h, h);
                 advance(a, matrices, own, w, s, h * h);
+                for (int e = 0; e < FLAT; e++)
+                    for (int d = 0; d < 2; d++)
+                        top[d][e] = larger(top[d][e], a[d][e]);
             }
             for (int l = 0; l < LANES; l++)
                 for (int r = 0; r < N; r++)
                     for (int c = 0; c < COLUMNS; c++) {
                         U[l][r][first + c] = a[0][r * COLUMNS + c][l];
                         U[l][N + r][first + c] = a[1][r * COLUMNS + c][l] / h;
+                        peak[l][r][first + c] = top[0][r * COLUMNS + c][l];
+                        peak[l][N + r][first + c] = top[1][r * COLUMNS + c][l] / h;
                     }
         }
         for (int l = 0; l < filled; l++) {
             double A[N][N], block[N][N];
             size_t point = start + l;
-            growth[point] = finish(U[l], A, block);
+            growth[point] = finish(U[l], peak[l], A, block);
 #if N <= 3
             polynomial(A, block, one + point * (N + 1), other + point);
 #else

@@ -96,7 +96,7 @@ def by_numpy(points: Points) -> Found:
         chunk = points[start : start + CHUNK]
         worst, nothing = _terms(chunk), np.zeros(points.matrices.shape[-2:])
         steps = ceil(np.pi / longest_step(worst, nothing, ORDER, TOLERANCE))
-        A, scale, growth = _folded(_fundamental(chunk, steps))
+        A, scale, growth = _folded(*_fundamental(chunk, steps))
         fastest = np.full(len(A), rate(worst, nothing))
         found.append((*characteristic_polynomials(A, scale), growth, fastest))
     return Found(*(np.concatenate(values) for values in zip(*found, strict=True)))
@@ -113,8 +113,12 @@ def _terms(points: Points) -> list[Term]:
     return list(zip(matrices, (0.0, *map(float, points.phases)), strict=True))
 
 
-def _fundamental(points: Points, steps: int) -> Float:
-    """Fundamental matrices of (u, du/dtheta) at theta = pi, shape (k, 2n, 2n)."""
+def _fundamental(points: Points, steps: int) -> tuple[Float, Float]:
+    """Fundamental matrices of (u, du/dtheta) at theta = pi, shape (k, 2n, 2n).
+
+    And the largest that each element has been at the steps' ends: rounding there is of that size,
+    whatever is left of it at the end.
+    """
     n, k = points.matrices.shape[-1], points.weights.shape[1]
     h = np.pi / steps
     shared = points.matrices.ndim == 3
@@ -129,6 +133,7 @@ def _fundamental(points: Points, steps: int) -> Float:
     powers = np.arange(ORDER + 1.0)
     a[0, np.arange(n), np.arange(n)] = 1.0
     a[1, np.arange(n), np.arange(n, 2 * n)] = h
+    top = np.abs(flat[:2])
     for step in range(steps):
         cosines = [_reversed_cosine(p, p * h, step * h) for p in points.phases]
         for j in range(ORDER - 1):
@@ -145,8 +150,13 @@ def _fundamental(points: Points, steps: int) -> Float:
                 a[j + 2] += shift * a[j]
             a[j + 2] /= (j + 1) * (j + 2)
         flat[0], flat[1] = np.ones(ORDER + 1) @ flat, powers @ flat
-    result = np.concatenate([a[0], a[1] / h])
-    return np.ascontiguousarray(np.moveaxis(result, -1, 0))
+        np.maximum(top, np.abs(flat[:2]), out=top)
+    return _stacked(a[0], a[1] / h), _stacked(*(top.reshape(2, n, 2 * n, k) / [[[[1.0]]], [[[h]]]]))
+
+
+def _stacked(u: Float, du: Float) -> Float:
+    """Points first, positions above velocities."""
+    return np.ascontiguousarray(np.moveaxis(np.concatenate([u, du]), -1, 0))
 
 
 def _reversed_cosine(frequency: int, turn: float, theta: float) -> Float:
@@ -157,14 +167,14 @@ def _reversed_cosine(frequency: int, turn: float, theta: float) -> Float:
     return np.array(series[::-1])
 
 
-def _folded(U: Float) -> tuple[Float, Float, Float]:
-    """A, the first block of |U^-1| |U|, and a bound on the latter's Perron root."""
+def _folded(U: Float, top: Float) -> tuple[Float, Float, Float]:
+    """A, the first block of |U^-1| top, and a bound on the latter's Perron root."""
     k, n = len(U), U.shape[1] // 2
-    sound = np.all(np.isfinite(U), axis=(1, 2))
+    sound = np.all(np.isfinite(top), axis=(1, 2))
     sound[sound] = np.linalg.slogdet(U[sound])[0] != 0.0
     A, scale, growth = np.zeros((k, n, n)), np.zeros((k, n, n)), np.full(k, np.inf)
     inverse = np.linalg.inv(U[sound])
-    whole = np.abs(inverse) @ np.abs(U[sound])
+    whole = np.abs(inverse) @ top[sound]
     A[sound] = 2.0 * inverse[:, :n, :n] @ U[sound, :n, :n] - np.eye(n)
     scale[sound] = whole[:, :n, :n]
     growth[sound] = growth_bound(whole)

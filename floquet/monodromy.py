@@ -17,7 +17,9 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from floquet.eigenvalues import eigenvalues
+from floquet.accuracy import OVERFLOW, known
+from floquet.eigenvalues import eigenvalues, from_matrix, from_polynomial
+from floquet.growth import Verdict, from_multipliers, from_z
 from floquet.ode import Parameters, shape, values
 from floquet.propagate import Cvodes, Propagator, Taylor, terms
 from floquet.steps import perron, rate
@@ -25,17 +27,16 @@ from hill import HillEquation
 
 Complex = NDArray[np.complexfloating[Any]]
 Float = NDArray[np.floating[Any]]
-EPS = float(np.finfo(float).eps)
-# Over 1,644 random systems, held against 600-bit arithmetic, `error` as a whole was never below 2.5
-# times the true error; tests/test_honesty.py fails if it is ever too small.
-SAFETY = 4.0
-
 # The terms that S U^-1 S U sums are this much larger than 1, 3 to 5 for the report's beam with 2 to
 # 12 modes, twice the growth over a period where there is one. Beyond, the whole period loses less.
 WELL = 100.0
 
 # exp of it is still a float.
 MOST_DECAY = 700.0
+
+# SUNDIALS' absolute tolerance leaves nothing of what decays by more than exp of this: beyond, the
+# run that checks is of u too.
+MOST_DECAY_CVODES = 5.0
 
 # Each method and the one it is checked by: other steps, another tolerance.
 METHODS: dict[str, tuple[Propagator, Propagator]] = {
@@ -62,16 +63,19 @@ class Monodromy:
     polynomial : (n + 1,) float ndarray
         P(z) = det(z I - A), monic, highest power first. With a damping matrix, which has no z,
         the polynomial of the multipliers themselves, (2n + 1,).
-    error : float
-        Bound on the absolute error of every coefficient of `polynomial`.
+    errors : (n + 1,) float ndarray
+        Bound on the absolute error of each coefficient of `polynomial`.
+    matrix_error : (n, n) float ndarray
+        Bound on the error of each element of A; of `matrix` with a damping matrix.
     z : (n,) complex ndarray
         cos 2 pi alpha, by descending real part; empty with a damping matrix.
     T : float
         Characteristic argument (7.1.1): twice the growth exponent of q, over ``omega_1``.
     T_error : float
-        Bound on the error of `T` that `error` allows.
-    stable : bool
-        False where `T` exceeds `T_error`.
+        Bound on the error of `T` that `errors` and `matrix_error` allow.
+    verdict : {"stable", "unstable", "undecided"}
+        What is shown: all z real, simple and within (-1, 1), or no growth with damping; growth; or
+        neither.
     liouville_defect : float
         |det Phi / exp(-period tr C) - 1| of the run that checks, which takes no symmetry for
         granted.
@@ -87,15 +91,26 @@ class Monodromy:
     matrix: Float
     multipliers: Complex
     polynomial: Float
-    error: float
+    errors: Float
+    matrix_error: Float
     z: Complex
     T: float
     T_error: float
-    stable: bool
+    verdict: Verdict
     liouville_defect: float
     reversibility_defect: float
     method: str
     half_period: bool
+
+    @property
+    def error(self) -> float:
+        """Bound on the absolute error of every coefficient of `polynomial`: largest of `errors`."""
+        return float(np.max(self.errors))
+
+    @property
+    def stable(self) -> bool:
+        """Whether the system is shown to be stable."""
+        return self.verdict == "stable"
 
 
 def monodromy(
@@ -120,7 +135,7 @@ def monodromy(
     Raises
     ------
     ValueError
-        `method` unknown.
+        `method` unfound.
     OverflowError
         The growth or the decay over one period exceeds what a float can hold.
     """
@@ -132,9 +147,8 @@ def monodromy(
     if method == "cvodes":
         # SUNDIALS does not give up on overflow; a Taylor run tells
         _finite(Taylor()(plain, size, period))
-    whole = _finite(check(plain, size, period))
     if np.ndim(equation.eta) > 0:
-        return _general(equation, run, whole, method)
+        return _general(equation, run, _finite(check(plain, size, period)), method)
 
     eta, n = equation.damping, size.n
     if abs(eta) * 0.5 * period > MOST_DECAY:
@@ -143,36 +157,40 @@ def monodromy(
             "exp(-pi eta/Omega), exceeds what a float can hold"
         )
     undamped = values(equation, undamped=True)
+    if method == "cvodes" and 0.5 * eta * period > MOST_DECAY_CVODES:
+        whole = _damp(_finite(check(undamped, size, period)), eta, period)
+    else:
+        whole = _finite(check(plain, size, period))
     U = _finite(run(undamped, size, 0.5 * period))
     try:
         Phi_u, scale = second_half(U)
         half = bool(np.all(np.isfinite(scale)) and perron(scale) < WELL)
     except np.linalg.LinAlgError:  # singular to rounding
-        half = False
+        scale, half = np.zeros_like(U), False
     if not half:
         Phi_u = _finite(run(undamped, size, period))
-        scale = np.abs(Phi_u)
-    polynomial, sensitivity = characteristic_polynomial(Phi_u[:n, :n], scale[:n, :n])
-    checked, _ = characteristic_polynomial(_undamp(whole, eta, period)[:n, :n], scale[:n, :n])
-    error = SAFETY * float(np.max(np.abs(polynomial - checked)))
-    error += FLOOR[method] * sensitivity
-    error += EPS * (8.0 + rate(terms(undamped, size), undamped.C) * period) * sensitivity
-
-    z, radius = eigenvalues(Phi_u[:n, :n], error)
+        # growth in the first half may not show at the end
+        scale = np.maximum(np.abs(Phi_u), np.where(np.isfinite(scale), scale, 0.0))
+    A = Phi_u[:n, :n]
+    ulps = 8.0 + rate(terms(undamped, size), undamped.C) * period
+    found = known(A, _undamp(whole, eta, period)[:n, :n], scale[:n, :n], ulps, FLOOR[method])
+    z = eigenvalues(A)
     root = np.sqrt(z - 1.0) * np.sqrt(z + 1.0)
     outer = np.where(np.abs(z + root) >= np.abs(z - root), z + root, z - root)
     pairs = np.concatenate([outer, 1.0 / outer])  # z - root cancels where z is large
     decay = np.exp(-0.5 * eta * period)
-    T, T_error = _growth(z, period, eta, radius)
+    families = from_polynomial(z, found.p, found.errors), from_matrix(A, found.matrix_error)
+    growth = from_z(families, found.p, found.errors, period, eta)
     return Monodromy(
         matrix=_damp(Phi_u, eta, period),
         multipliers=_descending(decay * pairs),
-        polynomial=polynomial,
-        error=error,
+        polynomial=found.p,
+        errors=found.errors,
+        matrix_error=found.matrix_error,
         z=z,
-        T=T,
-        T_error=T_error,
-        stable=T_error >= T,
+        T=growth.T,
+        T_error=growth.T_error,
+        verdict=growth.verdict,
         liouville_defect=_liouville(whole, plain, period),
         reversibility_defect=_reversibility(_undamp(whole, eta, period)),
         method=method,
@@ -188,62 +206,32 @@ def second_half(U: Float) -> tuple[Float, Float]:
     return (S[:, None] * inverse * S) @ U, np.abs(inverse) @ np.abs(U)
 
 
-def characteristic_polynomial(A: Float, scale: Float) -> tuple[Float, float]:
-    """Monic det(zI - A), and how much the largest coefficient moves per unit of |dA| <= scale.
-
-    d p_(k+1) = -tr(B_k dA), where sum_k B_k z^(n-1-k) is the adjugate of zI - A.
-    """
-    n = len(A)
-    p = np.real(np.poly(A))
-    B, largest = np.eye(n), 0.0
-    for k in range(n):
-        largest = max(largest, float(np.sum(np.abs(B.T) * scale)))
-        B = A @ B + p[k + 1] * np.eye(n)
-    return p, largest
-
-
 def _general(equation: HillEquation, run: Propagator, checked: Float, method: str) -> Monodromy:
     """A damping matrix: the whole period, and the multipliers as they are."""
     p, size = values(equation), shape(equation)
     period = 2.0 * np.pi / equation.Omega
     Phi = _finite(run(p, size, period))
-    polynomial, sensitivity = characteristic_polynomial(Phi, np.abs(Phi))
-    other, _ = characteristic_polynomial(checked, np.abs(Phi))
-    error = SAFETY * float(np.max(np.abs(polynomial - other)))
-    error += FLOOR[method] * sensitivity
-    error += EPS * (8.0 + rate(terms(p, size), p.C) * period) * sensitivity
-    mu, radius = eigenvalues(Phi, error)
-    outer = np.abs(mu) + radius
-    T = float(2.0 / period * np.log(np.abs(mu).max()))
-    T_error = float(2.0 / period * np.log(outer.max())) - T
-    T_error = max(T_error, T - float(2.0 / period * np.log(np.max(np.abs(mu) - radius).clip(EPS))))
+    ulps = 8.0 + rate(terms(p, size), p.C) * period
+    found = known(Phi, checked, np.abs(Phi), ulps, FLOOR[method])
+    mu = eigenvalues(Phi)
+    families = from_polynomial(mu, found.p, found.errors), from_matrix(Phi, found.matrix_error)
+    # Liouville: the product of all mu is exp(-period tr C)
+    growth = from_multipliers(families, period, -0.5 * period * float(np.trace(p.C)) / size.n)
     return Monodromy(
         matrix=Phi,
         multipliers=_descending(mu),
-        polynomial=polynomial,
-        error=error,
+        polynomial=found.p,
+        errors=found.errors,
+        matrix_error=found.matrix_error,
         z=np.empty(0, complex),
-        T=T,
-        T_error=T_error,
-        stable=T_error >= T,
+        T=growth.T,
+        T_error=growth.T_error,
+        verdict=growth.verdict,
         liouville_defect=_liouville(checked, p, period),
         reversibility_defect=float("nan"),
         method=method,
         half_period=False,
     )
-
-
-def _growth(z: Complex, period: float, eta: float, radius: Float) -> tuple[float, float]:
-    """T = (2/period) ln max|mu| and what discs of this radius about z allow it to be."""
-    around = np.append(0.0, np.exp(2j * np.pi * np.arange(16) / 16))
-    nearby = z[:, None] + radius[:, None] * around
-    root = np.sqrt(nearby - 1.0) * np.sqrt(nearby + 1.0)
-    log_R = np.log(np.maximum(np.abs(nearby + root), np.abs(nearby - root)))
-    per_root_low, per_root_high = log_R.min(axis=1), log_R.max(axis=1)
-    worst = float(log_R[:, 0].max())
-    slack = max(float(per_root_high.max()) - worst, worst - float(per_root_low.max()))
-    to_T = 2.0 / period
-    return to_T * worst - eta, to_T * (slack + 4.0 * EPS) + 2.0 * EPS * abs(eta)
 
 
 def _damp(Phi_u: Float, eta: float, period: float) -> Float:
@@ -282,5 +270,5 @@ def _descending(mu: Complex) -> Complex:
 
 def _finite(Phi: Float) -> Float:
     if not np.all(np.isfinite(Phi)):
-        raise OverflowError("the solution grows beyond what a float can hold within one period")
+        raise OverflowError(OVERFLOW)
     return Phi

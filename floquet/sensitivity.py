@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from floquet import runs
-from floquet.eigenvalues import eigenvalues
+from floquet.eigenvalues import eigenvalues, from_polynomial
 from floquet.monodromy import monodromy
 from floquet.ode import shape, values
 from floquet.propagate import Taylor, terms
@@ -112,7 +112,9 @@ def sensitivities(equation: HillEquation) -> Sensitivities:
         first = runs.half_period if m.half_period else runs.whole_period
         run, check = first(equation, RUN), runs.as_it_stands(equation, CHECK)
     p, period = values(equation), 2.0 * np.pi / equation.Omega
-    roots = Roots("multiplier" if matrix else "z", *eigenvalues(run.matrix, m.error))
+    centre = eigenvalues(run.matrix)
+    radius = from_polynomial(centre, m.polynomial, m.errors).radius
+    roots = Roots("multiplier" if matrix else "z", centre, radius)
     growth = _growth(roots, _of_multiplier if matrix else _of_z)
     lead = _lead(roots, growth)
     wanted = [lead] if matrix and lead is not None else list(range(len(roots.values)))

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from floquet.monodromy import SAFETY
+from floquet.accuracy import SAFETY
 from floquet.runs import Run
 
 Complex = NDArray[np.complexfloating[Any, Any]]

@@ -18,7 +18,8 @@ from numpy.typing import NDArray
 from hill import checks, determinant, residues
 from hill.determinant import Blocks
 from hill.equation import HillEquation
-from hill.stability import Stability, stability
+from hill.rounding import rounding
+from hill.stability import Stability, Verdict, stability
 
 Complex = NDArray[np.complexfloating[Any]]
 Float = NDArray[np.floating[Any]]
@@ -49,8 +50,9 @@ class Characteristic:
         Characteristic argument (7.1.1): the growth exponent of q, doubled, over ``omega_1``.
     T_error : float
         Bound on the error of `T` that `error` allows; large where two z meet.
-    stable : bool
-        False where `T` exceeds `T_error`: an instability that the error cannot explain.
+    verdict : {"stable", "unstable", "undecided"}
+        What P and its error show: all z real, simple and within (-1, 1), or no growth with damping;
+        growth; or neither.
     M : tuple of int
         Harmonics kept: in each determinant of the extrapolation, or for each residue K_j.
     form : {"converged", "residues", "samples"}
@@ -62,9 +64,14 @@ class Characteristic:
     z: Complex
     T: float
     T_error: float
-    stable: bool
+    verdict: Verdict
     M: tuple[int, ...]
     form: Literal["converged", "residues", "samples"]
+
+    @property
+    def stable(self) -> bool:
+        """Whether the system is shown to be stable."""
+        return self.verdict == "stable"
 
 
 def characteristic(
@@ -99,9 +106,14 @@ def characteristic(
     """
     system = determinant.blocks(equation)
     try:
-        converged, error, levels = _converged(system)
+        # what overflows is refused below, once, by what comes out
+        with np.errstate(all="ignore"):
+            converged, error, levels = _converged(system)
+            error += _moved_by_rounding(system, equation, converged)
     except ValueError as refused:
         raise ValueError(f"Omega = {equation.Omega:g}: {refused}") from None
+    if not (np.all(np.isfinite(converged)) and np.isfinite(error)):
+        raise OverflowError(determinant.OVERFLOW)
     if truncation == "converged":
         return _result(equation, converged, error, levels, "converged")
     if truncation == "report":
@@ -119,6 +131,21 @@ def characteristic(
     )
 
 
+def _moved_by_rounding(system: Blocks, equation: HillEquation, polynomial: Float) -> float:
+    """What rounding of the data and of each row may do to a coefficient."""
+    count = system.n // 2 + 2
+    size = np.abs(equation.F) + 0.25 * equation.damping**2 * np.eye(system.n)
+    for turn in (0.5, 0.45):
+        # off the real axis, where elimination without pivots is safe but for a root on a point
+        z = np.exp(1j * np.pi * (np.arange(count) + turn) / count)
+        alpha = np.arccos(z) / (2.0 * np.pi)
+        try:
+            return rounding(system, size / equation.Omega**2, alpha, np.polyval(polynomial, z))
+        except np.linalg.LinAlgError:
+            continue
+    return float("inf")
+
+
 def _result(
     equation: HillEquation,
     polynomial: Float,
@@ -127,7 +154,7 @@ def _result(
     form: Literal["converged", "residues", "samples"],
 ) -> Characteristic:
     s: Stability = stability(polynomial, error, equation.Omega, equation.damping)
-    return Characteristic(polynomial, error, s.z, s.T, s.T_error, s.stable, M, form)
+    return Characteristic(polynomial, error, s.z, s.T, s.T_error, s.verdict, M, form)
 
 
 def _circle(n: int) -> tuple[Complex, Complex]:

@@ -36,6 +36,8 @@ Float = NDArray[np.floating[Any]]
 NODES = 12
 # Series terms of the block tail: (w + |alpha|)/M <= 0.6 makes 0.6**(2*40) = 2e-18.
 SERIES = 40
+OVERFLOW = "the solution grows beyond what a float can hold within one period"
+
 # Its powers M**(2*SERIES) must stay below 1e308, at the finest level 1.5 M.
 MOST = 4000
 
@@ -107,7 +109,7 @@ def determinants(system: Blocks, alpha: Complex, M: int, squares: Complex) -> Co
     value = (2.0 * np.pi**2) ** system.n * mantissa * tail
     power = exponent + shift.astype(int)
     if np.any(power > 1000):
-        raise OverflowError("the solution grows beyond what a float can hold within one period")
+        raise OverflowError(OVERFLOW)
     return np.asarray(value * np.ldexp(1.0, power))
 
 

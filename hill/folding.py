@@ -60,17 +60,22 @@ class System:
         Square of gamma/(2 Omega^2), the factor that makes B of G.
     squares : (n, 1, k) complex ndarray
         Eigenvalues w^2 of Fbar.
+    data : (k,) ndarray
+        What the rounding of Fbar moves P by, over the largest value of P.
     """
 
     Fbar: Any
     G: Any
     b2: Float
     squares: Complex
+    data: Float
 
     def some(self, part: NDArray[np.int_]) -> "System":
         """Some of the equations."""
         G = self.G if self.G.ndim == 2 else self.G[..., part]
-        return System(self.Fbar[..., part], G, self.b2[part], self.squares[..., part])
+        return System(
+            self.Fbar[..., part], G, self.b2[part], self.squares[..., part], self.data[part]
+        )
 
 
 def samples(system: System, alpha: Complex, M: int) -> tuple[Complex, Float]:

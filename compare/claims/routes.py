@@ -20,8 +20,6 @@ FREQUENCY_TOLERANCE = 1e-9
 # Boundaries are bisected so often, then a parabola finds them; nine more would move them by 3e-5 of
 # the region's radius at most, measured over Tables 1 and 2, damped and not.
 BISECTIONS = 4
-# A growth that error bounds cannot tell from none must be smaller than this, or it is no answer.
-UNDECIDED = 1e-4
 
 
 class RoutesDisagree(ValueError):
@@ -30,7 +28,7 @@ class RoutesDisagree(ValueError):
 
 @dataclass(frozen=True, eq=False)
 class Both:
-    """T by either route at one point; zero where neither error bound lets it be positive."""
+    """T by either route at one point; zero where it is shown to be stable undamped."""
 
     hill: float
     floquet: float
@@ -69,12 +67,13 @@ def solve(closed: HillEquation, summed: HillEquation, what: str) -> Both:
             f"the routes disagree: P(z) by {apart:.1e} where {h.error + f.error:.1e} is allowed, "
             f"T by {abs(h.T - f.T):.1e} where {h.T_error + f.T_error:.1e} is, {at}"
         )
-    stable = bool(h.stable or f.stable)
-    if stable and max(h.T, f.T) > UNDECIDED:
+    shown = {h.verdict, f.verdict} - {"undecided"}
+    if len(shown) != 1:
         raise ValueError(
             f"undecided: T = {h.T:.2e} and {f.T:.2e}, error bounds {h.T_error:.1e} and "
             f"{f.T_error:.1e}, {at}"
         )
+    stable = shown == {"stable"}
     neutral = stable and closed.damping == 0.0
     return Both(0.0 if neutral else h.T, 0.0 if neutral else f.T, stable, h.z)
 

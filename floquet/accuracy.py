@@ -1,0 +1,74 @@
+"""How well two integrations of the same equation know its matrix and characteristic polynomial."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from floquet.charpoly import characteristic_polynomial
+
+Float = NDArray[np.floating[Any]]
+EPS = float(np.finfo(float).eps)
+OVERFLOW = "the solution grows beyond what a float can hold within one period"
+
+# Over 1,644 random systems, held against 600-bit arithmetic, `error` as a whole was never below 2.5
+# times the true error; tests/test_honesty.py fails if it is ever too small.
+SAFETY = 4.0
+
+
+@dataclass(frozen=True, eq=False)
+class Known:
+    """The characteristic polynomial of a matrix, and bounds on the errors of both.
+
+    Attributes
+    ----------
+    p, errors : (n + 1,) ndarray
+        Monic, highest power first.
+    matrix_error : (n, n) ndarray
+    """
+
+    p: Float
+    errors: Float
+    matrix_error: Float
+
+
+def known(A: Float, check: Float, scale: Float, ulps: float, floor: float) -> Known:
+    """What two runs know of A, each element of which sums terms of size `scale`.
+
+    Where the runs differ by chance in nothing, they may still both be off: the largest difference
+    over its scale is taken for all elements, and for all coefficients.
+
+    Parameters
+    ----------
+    A, check : (n, n) ndarray
+        By one run and by the other.
+    scale : (n, n) ndarray
+    ulps : float
+        Rounding of a run, in ulps of `scale`.
+    floor : float
+        What a run may be off without the other's showing it, over `scale`.
+
+    Raises
+    ------
+    OverflowError
+        A coefficient, or its error, is beyond a float.
+    """
+    with np.errstate(over="ignore", invalid="ignore"):
+        try:
+            p, sensitivity, rounding = characteristic_polynomial(A, scale)
+            other, _, also = characteristic_polynomial(check, scale)
+        except OverflowError:
+            raise OverflowError(OVERFLOW) from None
+        apart = _share(np.abs(p - other), sensitivity)
+        own = floor + EPS * ulps
+        errors = (SAFETY * apart + own) * sensitivity + rounding + also
+        matrix_error = SAFETY * np.maximum(np.abs(A - check), apart * scale) + own * scale
+    if not (np.all(np.isfinite(errors)) and np.all(np.isfinite(matrix_error))):
+        raise OverflowError(OVERFLOW)
+    return Known(p, errors, matrix_error)
+
+
+def _share(difference: Float, scale: Float) -> float:
+    """The largest difference over its scale, where there is one."""
+    return float(np.max(np.divide(difference, scale, out=np.zeros_like(scale), where=scale > 0.0)))
