@@ -186,6 +186,7 @@ def _route(route: Route) -> dict[str, Any]:
         "z": _pairs(route.z),
         "polynomial": [float(p) for p in route.polynomial],
         "error": route.error,
+        "data_error": route.data_error,
         "verdict": route.verdict,
         "stable": route.stable,
     }

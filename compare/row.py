@@ -37,13 +37,17 @@ T_REPORT = 1.5e-4
 
 @dataclass(frozen=True, eq=False)
 class Route:
-    """What one route finds: T with its error, z, P and the error of P's coefficients."""
+    """What one route finds: T with its error, z, P and the error of P's coefficients.
+
+    `error` is for the matrices as rounded, `data_error` what their rounding may add for the beam.
+    """
 
     T: float
     T_error: float
     z: Complex
     polynomial: NDArray[np.floating[Any]]
     error: float
+    data_error: float
     verdict: Verdict
 
     @property
@@ -116,8 +120,8 @@ def check(row: Row, *, method: Method = "taylor", modes: int = 2) -> Outcome:
     as_run = stab(constants(row.run["beam"]), row.case, row.Omega)
     closed, quadrature = equation(row, modes), witness(row, modes)
     h, f = characteristic(closed), monodromy(quadrature, method=method)
-    hill = Route(h.T, h.T_error, h.z, h.polynomial, h.error, h.verdict)
-    floquet = Route(f.T, f.T_error, f.z, f.polynomial, f.error, f.verdict)
+    hill = Route(h.T, h.T_error, h.z, h.polynomial, h.error, h.data_error, h.verdict)
+    floquet = Route(f.T, f.T_error, f.z, f.polynomial, f.error, f.data_error, f.verdict)
     difference = float(np.max(np.abs(h.polynomial - f.polynomial)))
     verdict, opposed = _joint(h.verdict, f.verdict)
     own = closed if modes == 2 else equation(row, 2)

@@ -72,3 +72,38 @@ def known(A: Float, check: Float, scale: Float, ulps: float, floor: float) -> Kn
 def _share(difference: Float, scale: Float) -> float:
     """The largest difference over its scale, where there is one."""
     return float(np.max(np.divide(difference, scale, out=np.zeros_like(scale), where=scale > 0.0)))
+
+
+def moved_by_data(F: Float, x: Float, shift: Float) -> tuple[Float, Float]:
+    """How far P moves, over its size, with the data of x F - shift.
+
+    A square w^2 moves by what l dF r says, l and r the eigenvectors of F, and cos 2 pi w by at most
+    pi/w times that, or 2 pi^2.
+
+    Parameters
+    ----------
+    F : (n, n) or (k, n, n) ndarray
+    x, shift : (k,) ndarray
+        1/Omega^2 and eta^2/(4 Omega^2).
+
+    Returns
+    -------
+    rounding : (k,) ndarray
+        Per unit of relative rounding of the terms.
+    every : (k,) ndarray
+        Per unit of change in every element of a matrix over Omega^2. Both are infinite where F is
+        defective to the last bit.
+    """
+    F = F if F.ndim == 3 else F[None]
+    values, right = np.linalg.eig(F)
+    try:
+        left = np.abs(np.linalg.inv(right))
+    except np.linalg.LinAlgError:
+        return np.full(len(x), np.inf), np.full(len(x), np.inf)
+    right = np.abs(right)
+    of_F = np.einsum("kij,kjl,kli->ki", left, np.abs(F), right) * x[:, None]
+    of_shift = np.einsum("kij,kji->ki", left, right) * shift[:, None]
+    of_every = left.sum(axis=2) * right.sum(axis=1)
+    w = np.sqrt(np.abs(values * x[:, None] - shift[:, None]))
+    moved = np.pi / np.maximum(w, 0.5 / np.pi)
+    return np.sum(moved * (of_F + of_shift), axis=1), np.sum(moved * of_every, axis=1)

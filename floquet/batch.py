@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from floquet import compiled
+from floquet.accuracy import moved_by_data
 from floquet.march import March, Points, by_numpy
 from floquet.monodromy import WELL, monodromy
 from hill import HillEquation
@@ -47,8 +48,9 @@ class Polynomials:
     coefficients : (k, n + 1) float ndarray
         Monic, highest power first.
     errors : (k,) float ndarray
-        Bound on the absolute error of every coefficient: truncation is below an ulp, rounding
-        is bounded by a model that the tests hold against the arbiter.
+        Bound on the absolute error of every coefficient, for the matrices as given (their own
+        `data_error` is left out): truncation is below an ulp, rounding is bounded by a model that
+        the tests hold against the arbiter.
     """
 
     coefficients: Float
@@ -212,7 +214,7 @@ def _solve(
     found = march(points)
     P, errors = np.empty_like(found.P), np.empty(len(x))
     size = np.sum(np.abs(found.P), axis=1)
-    data = _moved_by_data(points.matrices[0], x, points.shift)
+    data, _ = moved_by_data(points.matrices[0], x, points.shift)
     P[ordered] = found.P
     errors[ordered] = ULPS * EPS * (2.0 + 2.0 * np.pi * found.rate) * found.sensitivity
     errors[ordered] += ULPS * EPS * data * size
@@ -221,25 +223,6 @@ def _solve(
     for i in map(int, ordered[poor]):
         P[i], errors[i] = alone(i)
     return P, errors
-
-
-def _moved_by_data(F: Float, x: Float, shift: Float) -> Float:
-    """How far P moves, over its size, per unit of relative rounding in x F - shift, (k,).
-
-    A square w^2 moves by what l dF r says, l and r the eigenvectors, and cos 2 pi w by at most
-    pi/w times that, or 2 pi^2.
-    """
-    values, right = np.linalg.eig(F if F.ndim == 3 else F[None])
-    try:
-        left = np.linalg.inv(right)
-    except np.linalg.LinAlgError:  # defective to the last bit
-        return np.full(len(x), np.inf)
-    left, right = np.abs(left), np.abs(right)
-    of_F = np.einsum("kij,kjl,kli->ki", left, np.abs(F if F.ndim == 3 else F[None]), right)
-    of_shift = np.einsum("kij,kji->ki", left, right)
-    w = np.sqrt(np.abs(values * x[:, None] - shift[:, None]))
-    moved = of_F * x[:, None] + of_shift * shift[:, None]
-    return np.asarray(np.sum(np.pi / np.maximum(w, 0.5 / np.pi) * moved, axis=1))
 
 
 def _alone(e: HillEquation, forcing: _Forcing) -> tuple[Float, float]:

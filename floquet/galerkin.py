@@ -25,6 +25,10 @@ PANEL_PHASE = 4.0 * np.pi
 # Omega/omega_L this many ulps from a resonance cannot be told from it: three roundings precede.
 RESONANCE_ULPS = 4
 
+# Rounding of the matrices, over the largest element: against the closed forms they are 21 ulps off
+# at most over 200 beams of up to 8 modes. Near a longitudinal resonance the force adds its own.
+MATRIX_ERROR = 32.0 * 2.0**-52
+
 
 def galerkin(
     beam: UniformBeam | SteppedBeam,
@@ -111,6 +115,9 @@ def galerkin(
         # sin(s pi) = 0: these forces do nothing at the end.
         H=[reduced(thrust(c * sine)) for c, sine in zip(amplitudes, sines, strict=True)],
         omega_L=beam.omega_L,
+        data_error=min(
+            MATRIX_ERROR * (1.0 + np.pi * abs(wave) * float(np.max(np.abs(pulsating(xi))))), 1.0
+        ),
     )
 
 

@@ -17,7 +17,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from floquet.accuracy import OVERFLOW, known
+from floquet.accuracy import OVERFLOW, known, moved_by_data
 from floquet.eigenvalues import eigenvalues, from_matrix, from_polynomial
 from floquet.growth import Verdict, from_multipliers, from_z
 from floquet.ode import Parameters, shape, values
@@ -64,9 +64,12 @@ class Monodromy:
         P(z) = det(z I - A), monic, highest power first. With a damping matrix, which has no z,
         the polynomial of the multipliers themselves, (2n + 1,).
     errors : (n + 1,) float ndarray
-        Bound on the absolute error of each coefficient of `polynomial`.
+        Bound on the absolute error of each coefficient of `polynomial`, for the matrices F, G and H
+        to the last bit as they are given.
     matrix_error : (n, n) float ndarray
         Bound on the error of each element of A; of `matrix` with a damping matrix.
+    data_error : float
+        What the equation's own `data_error` may add to that, to first order; 0 where it has none.
     z : (n,) complex ndarray
         cos 2 pi alpha, by descending real part; empty with a damping matrix.
     T : float
@@ -93,6 +96,7 @@ class Monodromy:
     polynomial: Float
     errors: Float
     matrix_error: Float
+    data_error: float
     z: Complex
     T: float
     T_error: float
@@ -187,6 +191,7 @@ def monodromy(
         polynomial=found.p,
         errors=found.errors,
         matrix_error=found.matrix_error,
+        data_error=_data(equation) * float(np.sum(np.abs(found.p))),
         z=z,
         T=growth.T,
         T_error=growth.T_error,
@@ -223,6 +228,7 @@ def _general(equation: HillEquation, run: Propagator, checked: Float, method: st
         polynomial=found.p,
         errors=found.errors,
         matrix_error=found.matrix_error,
+        data_error=_data(equation) * float(np.sum(np.abs(found.p))),
         z=np.empty(0, complex),
         T=growth.T,
         T_error=growth.T_error,
@@ -232,6 +238,16 @@ def _general(equation: HillEquation, run: Propagator, checked: Float, method: st
         method=method,
         half_period=False,
     )
+
+
+def _data(e: HillEquation) -> float:
+    """What the errors of the matrices move P by, over its size."""
+    if e.data_error == 0.0:
+        return 0.0
+    largest = np.max(np.abs(e.F)) + sum(np.max(np.abs(H)) for H in (e.gamma * e.G, *e.H))
+    x = np.array([1.0 / e.Omega**2])
+    shift = 0.25 * e.damping**2 * x if np.ndim(e.eta) == 0 else 0.0 * x
+    return float(e.data_error * largest * x[0] * moved_by_data(e.F, x, shift)[1][0])
 
 
 def _damp(Phi_u: Float, eta: float, period: float) -> Float:

@@ -55,7 +55,8 @@ class Polynomials:
     coefficients : (k, n + 1) float ndarray
         Monic, highest power first.
     errors : (k,) float ndarray
-        Bound on the absolute error of every coefficient.
+        Bound on the absolute error of every coefficient, for the matrices as given: their own
+        `data_error` is left out.
     """
 
     coefficients: Float

@@ -43,7 +43,10 @@ class Characteristic:
     polynomial : (n + 1,) float ndarray
         P(z), monic, highest power first.
     error : float
-        Bound on the absolute error of every coefficient of `polynomial`.
+        Bound on the absolute error of every coefficient of `polynomial`, for the matrices F, G and
+        H to the last bit as they are given.
+    data_error : float
+        What the equation's own `data_error` may add to that, to first order; 0 where it has none.
     z : (n,) complex ndarray
         The characteristic values cos 2 pi alpha (6.3.8), by descending real part.
     T : float
@@ -61,6 +64,7 @@ class Characteristic:
 
     polynomial: Float
     error: float
+    data_error: float
     z: Complex
     T: float
     T_error: float
@@ -109,13 +113,14 @@ def characteristic(
         # what overflows is refused below, once, by what comes out
         with np.errstate(all="ignore"):
             converged, error, levels = _converged(system)
-            error += _moved_by_rounding(system, equation, converged)
+            rounded, data_error = _moved(system, equation, converged)
+            error += rounded
     except ValueError as refused:
         raise ValueError(f"Omega = {equation.Omega:g}: {refused}") from None
     if not (np.all(np.isfinite(converged)) and np.isfinite(error)):
         raise OverflowError(determinant.OVERFLOW)
     if truncation == "converged":
-        return _result(equation, converged, error, levels, "converged")
+        return _result(equation, converged, error, data_error, levels, "converged")
     if truncation == "report":
         kept = residues.report_rule(equation)
     elif isinstance(truncation, str):
@@ -126,35 +131,42 @@ def characteristic(
     form: Literal["residues", "samples"] = "residues"
     if polynomial is None:
         polynomial, form = _sampled(system, max(kept)), "samples"
-    return _result(
-        equation, polynomial, float(np.max(np.abs(polynomial - converged))) + error, kept, form
-    )
+    error += float(np.max(np.abs(polynomial - converged)))
+    return _result(equation, polynomial, error, data_error, kept, form)
 
 
-def _moved_by_rounding(system: Blocks, equation: HillEquation, polynomial: Float) -> float:
-    """What rounding of the data and of each row may do to a coefficient."""
+def _moved(system: Blocks, e: HillEquation, polynomial: Float) -> tuple[float, float]:
+    """What rounding moves a coefficient by, and what the errors of the matrices do."""
     count = system.n // 2 + 2
-    size = np.abs(equation.F) + 0.25 * equation.damping**2 * np.eye(system.n)
+    x = 1.0 / e.Omega**2
+    F = x * (np.abs(e.F) + 0.25 * e.damping**2 * np.eye(system.n))
+    every = e.data_error * np.ones_like(F)
+    size = Blocks(F, {p: np.abs(B) for p, B in system.B.items()})
+    given = Blocks(
+        x * np.max(np.abs(e.F)) * every,
+        {p: np.max(np.abs(B)) * every for p, B in system.B.items()},
+    )
     for turn in (0.5, 0.45):
         # off the real axis, where elimination without pivots is safe but for a root on a point
         z = np.exp(1j * np.pi * (np.arange(count) + turn) / count)
         alpha = np.arccos(z) / (2.0 * np.pi)
         try:
-            return rounding(system, size / equation.Omega**2, alpha, np.polyval(polynomial, z))
+            return rounding(system, size, given, alpha, np.polyval(polynomial, z))
         except np.linalg.LinAlgError:
             continue
-    return float("inf")
+    return float("inf"), float("inf")
 
 
 def _result(
     equation: HillEquation,
     polynomial: Float,
     error: float,
+    data_error: float,
     M: tuple[int, ...],
     form: Literal["converged", "residues", "samples"],
 ) -> Characteristic:
     s: Stability = stability(polynomial, error, equation.Omega, equation.damping)
-    return Characteristic(polynomial, error, s.z, s.T, s.T_error, s.verdict, M, form)
+    return Characteristic(polynomial, error, data_error, s.z, s.T, s.T_error, s.verdict, M, form)
 
 
 def _circle(n: int) -> tuple[Complex, Complex]:

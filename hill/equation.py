@@ -42,6 +42,9 @@ class HillEquation:
     omega_L : float, optional
         Fundamental longitudinal frequency over ``omega_1``. With `H` it must be a whole multiple
         of `Omega`, or the equation has no common period (6.2.4).
+    data_error : float, optional
+        Bound on the error of each element of F, G and H, over that matrix's largest element.
+        Results say what it may add to their own error, which is for the numbers as given.
 
     Raises
     ------
@@ -57,6 +60,7 @@ class HillEquation:
     eta: float | NDArray[np.float64] = 0.0
     H: tuple[NDArray[np.float64], ...] = ()
     omega_L: float = math.inf
+    data_error: float = 0.0
 
     def __init__(
         self,
@@ -67,6 +71,7 @@ class HillEquation:
         eta: float | ArrayLike = 0.0,
         H: Sequence[ArrayLike] = (),
         omega_L: float = math.inf,
+        data_error: float = 0.0,
     ) -> None:
         checked = checks.square("F", F)
         n = len(checked)
@@ -83,6 +88,7 @@ class HillEquation:
             eta=checks.number("eta", eta) if one_number else checks.square("eta", eta, n=n),
             H=checks.matrices("H", H, n=n),
             omega_L=checks.positive("omega_L", omega_L, or_infinite=True),
+            data_error=checks.between("data_error", data_error, 0.0, 1.0),
         )
         if self.H:
             _ = self.ratio
@@ -107,6 +113,7 @@ class HillEquation:
             eta=checks.number("eta", eta),
             H=(),
             omega_L=self.omega_L,
+            data_error=self.data_error,
         )
         return other
 

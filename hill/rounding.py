@@ -33,14 +33,18 @@ ROW = 2.0
 BEYOND = 6
 
 
-def rounding(system: Blocks, size: Float, alpha: Complex, values: Complex) -> float:
+def rounding(
+    system: Blocks, size: Blocks, given: Blocks, alpha: Complex, values: Complex
+) -> tuple[float, float]:
     """How far rounding moves any coefficient of P(z), to first order.
 
     Parameters
     ----------
     system : Blocks
-    size : (n, n) ndarray
-        Size of the terms that Fbar sums: (|F| + eta^2/4)/Omega^2.
+    size : Blocks
+        Size of what Fbar and B_p sum.
+    given : Blocks
+        Errors that Fbar and B_p came with.
     alpha : (c,) complex ndarray
         Points with z on the upper half of |z| = 1; more than half as many as P has coefficients.
     values : (c,) complex ndarray
@@ -48,8 +52,9 @@ def rounding(system: Blocks, size: Float, alpha: Complex, values: Complex) -> fl
 
     Returns
     -------
-    float
-        A coefficient of P is a mean over the circle, so no more than the mean of what P moves by.
+    rounding, data : float
+        By rounding, and by the errors given. A coefficient of P is a mean over the circle, so it
+        moves by no more than the mean of what P moves by.
     """
     n, reach = system.n, max(system.reach, 1)
     strength = sum((np.abs(B) for B in system.B.values()), np.zeros_like(system.Fbar))
@@ -67,11 +72,14 @@ def rounding(system: Blocks, size: Float, alpha: Complex, values: Complex) -> fl
     below = -up[:, 1:] @ lower @ inverse[:, :-1]
     above = -inverse[:, :-1] @ upper @ up[:, 1:]
 
-    known = np.kron(np.eye(reach), size) + np.abs(inner - np.kron(np.eye(reach), system.Fbar))
-    common = _moduli(inverse, known) + _moduli(below, np.abs(upper)) + _moduli(above, np.abs(lower))
+    def common(error: Blocks) -> Float:
+        of_inner, of_upper, of_lower = _constant(error, reach)
+        found = _moduli(inverse, of_inner) + _moduli(below, of_upper) + _moduli(above, of_lower)
+        return np.abs(values) * found
+
     rows = np.einsum("cgjk,cgkj->cg", np.abs(inverse), np.abs(diagonal))
-    moved = DATA * common + ROW * np.sqrt(np.sum(rows**2, axis=1))
-    return float(EPS * np.mean(np.abs(values) * moved))
+    own = np.abs(values) * ROW * np.sqrt(np.sum(rows**2, axis=1)) + DATA * common(size)
+    return float(EPS * np.mean(own)), float(np.mean(common(given)))
 
 
 def _constant(system: Blocks, reach: int) -> tuple[Float, Float, Float]:
