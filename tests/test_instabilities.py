@@ -137,7 +137,7 @@ def test_points_within_their_bounds() -> None:
         assert abs(points.T[k] - c.T) <= points.T_error[k] + c.T_error
         assert np.sort_complex(points.z[k]) == pytest.approx(np.sort_complex(c.z), abs=1e-6)
         assert points.R[k] == pytest.approx(np.exp(np.pi / Omega[k] * (c.T + 0.01)), abs=1e-6)
-        assert bool(points.unstable[k]) is not c.stable
+        assert points.verdict[k] == c.verdict
     assert np.median(points.T_error) < 1e-8
 
 
