@@ -1,5 +1,9 @@
-from compare.charts.compute import chart as chart
-from compare.charts.result import Chart as Chart
-from compare.row import Outcome as Outcome
-from compare.run import Report as Report
-from compare.run import verify as verify
+"""The judge: one system by two routes, the report reproduced, charts, the command."""
+
+from compare.charts.compute import chart
+from compare.charts.result import Chart
+from compare.crosscheck import CrossCheck, crosscheck
+from compare.row import Outcome
+from compare.run import Report, verify
+
+__all__ = ["Chart", "CrossCheck", "Outcome", "Report", "chart", "crosscheck", "verify"]

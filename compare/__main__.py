@@ -8,7 +8,7 @@ from importlib import import_module
 
 from compare.workers import WorkersError
 
-COMMANDS: tuple[str, ...] = ("listing", "figures", "claims", "chart", "sensitivity")
+COMMANDS: tuple[str, ...] = ("system", "listing", "figures", "claims", "chart", "sensitivity")
 """Subcommands, each a module of `compare.commands` with SUMMARY, EPILOG, configure and run."""
 
 

@@ -6,12 +6,12 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from compare.crosscheck import compare_routes
 from compare.deck import constants
 from compare.errata import is_open
 from compare.match import distance
 from compare.recover import HALF_UNIT, T_AS_RUN, Z_AS_RUN
 from compare.tables import Row, corrected
-from floquet import monodromy
 from floquet.galerkin import galerkin
 from hill import HillEquation, characteristic, determinant, residues
 from hill.listing import stab
@@ -119,11 +119,10 @@ def check(row: Row, *, method: Method = "taylor", modes: int = 2) -> Outcome:
     """
     as_run = stab(constants(row.run["beam"]), row.case, row.Omega)
     closed, quadrature = equation(row, modes), witness(row, modes)
-    h, f = characteristic(closed), monodromy(quadrature, method=method)
+    x = compare_routes(closed, quadrature, method=method)
+    h, f = x.hill, x.floquet
     hill = Route(h.T, h.T_error, h.z, h.polynomial, h.error, h.data_error, h.verdict)
     floquet = Route(f.T, f.T_error, f.z, f.polynomial, f.error, f.data_error, f.verdict)
-    difference = float(np.max(np.abs(h.polynomial - f.polynomial)))
-    verdict, opposed = _joint(h.verdict, f.verdict)
     own = closed if modes == 2 else equation(row, 2)
     judged = h if modes == 2 else characteristic(own)
     cause, note = _cause(row, own, (judged.T, judged.z), (as_run.STAB1, as_run.roots))
@@ -134,13 +133,13 @@ def check(row: Row, *, method: Method = "taylor", modes: int = 2) -> Outcome:
         as_run_z=as_run.roots,
         hill=hill,
         floquet=floquet,
-        difference=difference,
-        matrices=_apart(closed, quadrature),
-        routes_agree=difference <= h.error + f.error and not opposed,
+        difference=x.difference,
+        matrices=x.matrices,
+        routes_agree=x.routes_agree,
         cause=cause,
         expected=cause != "unexplained" or is_open(row.id),
         verdict_printed="stable" if row.T == 0.0 else "unstable",
-        verdict=verdict,
+        verdict=x.verdict,
         note=note if modes == 2 else f"{modes} modes; {note}".removesuffix("; "),
     )
 
@@ -157,22 +156,6 @@ def witness(row: Row, modes: int) -> HillEquation:
 
 def _damping(row: Row) -> dict[str, Any]:
     return {"eta": row.run["eta"], "initial_terms": TERMS if row.initial_conditions else 0}
-
-
-def _joint(one: Verdict, other: Verdict) -> tuple[Verdict, bool]:
-    """What both routes show together, and whether they show opposites: one may know more."""
-    shown = {one, other} - {"undecided"}
-    if len(shown) == 1:
-        return shown.pop(), False
-    return "undecided", bool(shown)
-
-
-def _apart(one: HillEquation, other: HillEquation) -> float:
-    pairs = zip((one.F, one.G, *one.H), (other.F, other.G, *other.H), strict=True)
-    return max(
-        float(np.max(np.abs(a - b)) / max(np.max(np.abs(a)), np.max(np.abs(b)), 1e-300))
-        for a, b in pairs
-    )
 
 
 def _cause(row: Row, own: HillEquation, converged: Found, as_run: Found) -> tuple[Cause, str]:

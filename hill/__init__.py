@@ -1,5 +1,17 @@
-from hill.beams import SteppedBeam as SteppedBeam
-from hill.beams import UniformBeam as UniformBeam
-from hill.characteristic import Characteristic as Characteristic
-from hill.characteristic import characteristic as characteristic
-from hill.equation import HillEquation as HillEquation
+"""Hill's determinant: equations, systems and the determinant's route to their stability."""
+
+from hill.beams import SteppedBeam, UniformBeam
+from hill.characteristic import Characteristic, characteristic
+from hill.equation import HillEquation
+from hill.system import MatrixSystem, Parameter, System
+
+__all__ = [
+    "Characteristic",
+    "HillEquation",
+    "MatrixSystem",
+    "Parameter",
+    "SteppedBeam",
+    "System",
+    "UniformBeam",
+    "characteristic",
+]

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from hill import checks, stepped, uniform
 from hill.equation import HillEquation
+from hill.system import Parameter
 
 Float = NDArray[np.floating[Any]]
 Complex = NDArray[np.complexfloating[Any, Any]]
@@ -19,6 +20,13 @@ Complex = NDArray[np.complexfloating[Any, Any]]
 # sin(pi sigma) is known to an ulp of pi sigma; below this share of it, the undamped axial force is
 # resonant as far as rounding of Omega and omega_L can tell.
 RESONANCE_ULPS = 4
+
+_COMMON = (
+    Parameter("T0", dependence="linear"),
+    Parameter("K_theta", dependence="linear"),
+    Parameter("xi_G", 0.0, 1.0),
+    Parameter("omega_L", 0.0),
+)
 
 # Rounding of the closed forms, over the largest element: against quadrature they are 21 ulps off at
 # most over 200 beams of up to 8 modes. Near a longitudinal resonance the force adds its own.
@@ -78,6 +86,21 @@ class UniformBeam:
             g=checks.between("g", self.g, 0.0, LARGEST_G),
             modes=checks.count("modes", self.modes, least=1),
         )
+
+    @property
+    def parameters(self) -> tuple[Parameter, ...]:
+        """What may be varied; `modes` may not."""
+        return (*_COMMON, Parameter("g", 0.0, LARGEST_G))
+
+    @property
+    def depends_on_Omega(self) -> bool:
+        """Whether G moves with Omega, as with a finite `omega_L`."""
+        return math.isfinite(self.omega_L)
+
+    @property
+    def frequency_names(self) -> tuple[str, ...]:
+        """As the report calls them: rotation first, then bending."""
+        return _names(self.modes)
 
     def natural_frequencies(self) -> Float | Complex:
         """omega_(B) and omega_(1..N) under the constant thrust, over ``omega_1``.
@@ -196,6 +219,22 @@ class SteppedBeam:
             modes=checks.count("modes", self.modes, least=1),
         )
 
+    @property
+    def parameters(self) -> tuple[Parameter, ...]:
+        """What may be varied; `modes` may not."""
+        positive = (Parameter(name, 0.0) for name in ("area_ratio", "inertia_ratio"))
+        return (*_COMMON, Parameter("xi_c", 0.0, 1.0), *positive)
+
+    @property
+    def depends_on_Omega(self) -> bool:
+        """Whether G moves with Omega, as with a finite `omega_L`."""
+        return math.isfinite(self.omega_L)
+
+    @property
+    def frequency_names(self) -> tuple[str, ...]:
+        """As the report calls them: rotation first, then bending."""
+        return _names(self.modes)
+
     def natural_frequencies(self) -> Float | Complex:
         """omega_(B) and omega_(1..N) under the constant thrust, as for `UniformBeam`."""
         return _frequencies(self._steady())
@@ -244,6 +283,10 @@ def _forcing(Omega: float, omega_L: float) -> tuple[float, float]:
     """Checked Omega, and sigma = Omega/omega_L of Eq. (4.4.8)."""
     Omega = checks.positive("Omega", Omega)
     return Omega, Omega / omega_L
+
+
+def _names(modes: int) -> tuple[str, ...]:
+    return ("B", *(str(n) for n in range(1, modes + 1)))
 
 
 def _matrix_error(nu: float, divisor: float) -> float:

@@ -1,0 +1,123 @@
+"""``verify system``: any system from a file, by both routes."""
+
+import argparse
+import io
+import sys
+from pathlib import Path
+
+from rich.console import Console
+
+from compare import system_file
+from compare.commands.terminal import terminal
+from compare.crosscheck import crosscheck
+from compare.crosscheck_text import FORMATS, WRITERS, Subject, text
+from compare.output import check_writable, write_whole
+from hill import checks
+from hill.system import frequency_names, natural_frequencies, parameter_values
+
+SUMMARY = "cross-check a system of one's own, given in a file"
+EPILOG = """\
+examples:
+  verify system mine.toml
+  verify system mine.toml --set Omega=2.1 --set gamma=0.3 --format json
+  verify system mine.toml --output mine.md
+
+mine.toml, in its simplest form:
+
+  kind = "matrices"
+  [system]
+  F = [[2.0, -1.0], [-1.0, 2.0]]
+  G = [[1.0, 0.0], [0.0, 1.0]]
+  [forcing]
+  gamma = 0.15
+  Omega = 2.0
+
+F, G and a mass matrix M may be files: "mine.npz:F", "mine.mat:F", "mine.mtx". A term
+F_terms.name = [[...]] (or G_terms.name) makes a parameter `name` of which F gains so much; its
+value is values.name. kind = "uniform" and "stepped" are the report's beams, with T0, K_theta, ...
+
+exit status: 0 the routes agree; 1 they do not; 2 wrong usage or input."""
+
+
+def configure(p: argparse.ArgumentParser) -> None:
+    """Options of the command."""
+    p.add_argument("file", type=Path, metavar="FILE.toml", help="the system and its forcing")
+    p.add_argument(
+        "--set", action="append", default=[], metavar="NAME=VALUE", help="a number; repeatable"
+    )
+    p.add_argument(
+        "--format",
+        choices=FORMATS,
+        help="text, or what the output's suffix says (.json, .md, .csv)",
+    )
+    p.add_argument(
+        "--output", type=Path, metavar="FILE", help="write there instead of the terminal"
+    )
+    p.add_argument(
+        "--method",
+        choices=("taylor", "cvodes"),
+        default="taylor",
+        help="how the time domain integrates (default taylor)",
+    )
+
+
+def run(options: argparse.Namespace) -> int:
+    """Run it; return the exit status."""
+    found = system_file.with_settings(system_file.read(options.file), settings(options.set))
+    for name in ("Omega", "gamma"):
+        if name not in found.forcing:
+            raise ValueError(f"{name}: has no value; give it in [forcing] or as --set {name}=")
+    if options.output is not None:
+        check_writable(options.output)
+    result = crosscheck(found.system, **found.forcing, method=options.method)
+    frequencies = natural_frequencies(found.system)
+    subject = Subject(
+        title=found.title,
+        kind=found.kind,
+        values=parameter_values(found.system),
+        forcing={"eta": 0.0} | found.forcing,
+        frequencies=tuple(
+            zip(
+                frequency_names(found.system, len(frequencies)),
+                map(complex, frequencies),
+                strict=True,
+            )
+        ),
+    )
+    kind = options.format or (options.output.suffix[1:] if options.output else "text")
+    if kind in WRITERS:
+        content = WRITERS[kind](subject, result)
+    elif options.output is None:
+        text(subject, result, terminal())
+        return int(not result.routes_agree)
+    else:
+        buffer = io.StringIO()
+        text(subject, result, Console(file=buffer, width=100))
+        content = buffer.getvalue()
+    if options.output is None:
+        sys.stdout.write(content)
+        sys.stdout.flush()
+    else:
+        write_whole(options.output, content)
+    return int(not result.routes_agree)
+
+
+def settings(words: list[str]) -> dict[str, float]:
+    """NAME=VALUE as typed.
+
+    Raises
+    ------
+    ValueError
+        Words that are not of this form.
+    """
+    found = {}
+    for word in words:
+        name, equals, value = word.partition("=")
+        if not equals or not name:
+            raise ValueError(f"--set {word}: must be NAME=VALUE")
+        try:
+            number = float(value)
+        except ValueError:
+            raise ValueError(f"--set {word}: {value!r} is not a number") from None
+        found[name] = number if number == float("inf") else checks.number(name, number)
+    return found

@@ -1,0 +1,204 @@
+"""A cross-check as text, JSON, Markdown or CSV: nothing computed but the time to double."""
+
+import csv
+import io
+import json
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from rich import box
+from rich.console import Console
+from rich.table import Table
+
+from compare.crosscheck import CrossCheck
+
+FORMATS = ("text", "json", "md", "csv")
+STYLES = {"stable": "bold green", "unstable": "bold red", "undecided": "bold yellow"}
+
+
+@dataclass(frozen=True, eq=False)
+class Subject:
+    """What was cross-checked: a title, its parameters and forcing, its natural frequencies."""
+
+    title: str
+    kind: str
+    values: dict[str, float]
+    forcing: dict[str, float]
+    frequencies: tuple[tuple[str, complex], ...]
+
+
+def doubling_time(T: float) -> float | None:
+    """Dimensionless time in which a growing q doubles: q grows like exp(T tau/2)."""
+    return 2.0 * math.log(2.0) / T if T > 0.0 else None
+
+
+def summary(subject: Subject, x: CrossCheck) -> tuple[str, str]:
+    """Two lines that say what was found."""
+    growth = doubling_time(x.T) if x.verdict == "unstable" else None
+    T = f"T = {_short(x.T)} +- {x.T_error:.0e}"
+    doubles = f", doubling every {growth:.4g}" if growth else ""
+    agree = "agree" if x.routes_agree else "DISAGREE"
+    matrices = (
+        "both were given the same matrices"
+        if x.shared_matrices
+        else f"each has its own matrices, which differ by {x.matrices:.0e}"
+    )
+    return (
+        f"{subject.title}: {x.verdict.upper()}, {T}{doubles}.",
+        f"The routes {agree}: P(z) differs by {x.difference:.1e}, their bounds allow "
+        f"{x.bound:.1e}; {matrices}.",
+    )
+
+
+def text(subject: Subject, x: CrossCheck, console: Console) -> None:
+    """Print everything, at 80 columns too."""
+    first, second = summary(subject, x)
+    console.print(first, style=STYLES[x.verdict], highlight=False)
+    console.print(second, style="" if x.routes_agree else "bold red", highlight=False)
+    console.print()
+    for title, words in _facts(subject):
+        console.print(f"{title}: {words}", highlight=False)
+    console.print()
+    table = _table("", "hill", "floquet")
+    for name, left, right in _compared(x):
+        table.add_row(name, left, right)
+    console.print(table)
+    console.print()
+    table = _table("multiplier", "modulus", "phase/pi")
+    for mu in x.floquet.multipliers:
+        phase = float(np.angle(mu)) / np.pi
+        table.add_row(_complex(complex(mu)), f"{abs(mu):.9f}", f"{phase:+.6f}")
+    console.print(table)
+
+
+def as_dict(subject: Subject, x: CrossCheck) -> dict[str, Any]:
+    """What JSON holds; complex numbers are [re, im]."""
+    return {
+        "title": subject.title,
+        "kind": subject.kind,
+        "parameters": {k: _finite(v) for k, v in subject.values.items()},
+        "forcing": subject.forcing,
+        "frequencies": {name: _pair(value) for name, value in subject.frequencies},
+        "hill": _route(x.hill),
+        "floquet": _route(x.floquet) | {"multipliers": [_pair(m) for m in x.floquet.multipliers]},
+        "difference": x.difference,
+        "bound": x.bound,
+        "matrices": x.matrices,
+        "shared_matrices": x.shared_matrices,
+        "routes_agree": x.routes_agree,
+        "verdict": x.verdict,
+        "T": x.T,
+        "T_error": x.T_error,
+        "doubling_time": doubling_time(x.T) if x.verdict == "unstable" else None,
+        "units": "dimensionless, over the system's own unit of frequency",
+    }
+
+
+def as_json(subject: Subject, x: CrossCheck) -> str:
+    """The cross-check as JSON."""
+    return json.dumps(as_dict(subject, x), indent=1, allow_nan=False) + "\n"
+
+
+def markdown(subject: Subject, x: CrossCheck) -> str:
+    """Two lines and a table for a report."""
+    lines = [*summary(subject, x), ""]
+    lines += [f"- {title}: {words}" for title, words in _facts(subject)]
+    lines += ["", "| | hill | floquet |", "| --- | ---: | ---: |"]
+    lines += [f"| {name} | {left} | {right} |" for name, left, right in _compared(x)]
+    lines += ["", "| multiplier | modulus |", "| ---: | ---: |"]
+    lines += [f"| {_complex(complex(mu))} | {abs(mu):.9f} |" for mu in x.floquet.multipliers]
+    return "\n".join(lines) + "\n"
+
+
+def as_csv(subject: Subject, x: CrossCheck) -> str:
+    """One line a quantity, every digit."""
+    buffer = io.StringIO()
+    writer = csv.writer(buffer, lineterminator="\n")
+    writer.writerow(["quantity", "index", "hill", "floquet"])
+    for name in ("T", "T_error", "error", "verdict"):
+        writer.writerow([name, "", *(_cell(getattr(r, name)) for r in (x.hill, x.floquet))])
+    for k, pair in enumerate(zip(x.hill.polynomial, x.floquet.polynomial, strict=True)):
+        writer.writerow(["P", k, *map(_cell, pair)])
+    for k, pair in enumerate(zip(x.hill.z, x.floquet.z, strict=True)):
+        writer.writerow(["z_re", k, *(_cell(z.real) for z in pair)])
+        writer.writerow(["z_im", k, *(_cell(z.imag) for z in pair)])
+    for k, mu in enumerate(x.floquet.multipliers):
+        writer.writerow(["multiplier_re", k, "", _cell(mu.real)])
+        writer.writerow(["multiplier_im", k, "", _cell(mu.imag)])
+    for name, value in (*subject.forcing.items(), *subject.values.items()):
+        writer.writerow([name, "", _cell(value), _cell(value)])
+    return buffer.getvalue()
+
+
+WRITERS: dict[str, Callable[[Subject, CrossCheck], str]] = {
+    "json": as_json,
+    "md": markdown,
+    "csv": as_csv,
+}
+
+
+def _facts(subject: Subject) -> list[tuple[str, str]]:
+    given = ", ".join(f"{k} = {v:.9g}" for k, v in (subject.forcing | subject.values).items())
+    frequencies = ", ".join(f"omega_({n}) = {_complex(w, 7)}" for n, w in subject.frequencies)
+    return [("at", given), ("natural frequencies", frequencies)]
+
+
+def _compared(x: CrossCheck) -> list[tuple[str, str, str]]:
+    h, f = x.hill, x.floquet
+    degree = len(h.polynomial) - 1
+    rows = [
+        ("verdict", str(h.verdict), str(f.verdict)),
+        ("T", _short(h.T), _short(f.T)),
+        ("T known to", f"{h.T_error:.0e}", f"{f.T_error:.0e}"),
+    ]
+    for k in range(1, degree + 1):
+        rows.append((f"P, z^{degree - k}", f"{h.polynomial[k]:.12g}", f"{f.polynomial[k]:.12g}"))
+    rows.append(("P known to", f"{h.error:.0e}", f"{f.error:.0e}"))
+    for k, (one, other) in enumerate(zip(h.z, f.z, strict=True), start=1):
+        rows.append((f"z_{k}", _complex(complex(one)), _complex(complex(other))))
+    return rows
+
+
+def _table(*heads: str) -> Table:
+    table = Table(box=box.SIMPLE_HEAD, pad_edge=False, show_edge=False, padding=(0, 2, 0, 0))
+    for k, head in enumerate(heads):
+        table.add_column(head, justify="right" if k else "left", no_wrap=True)
+    return table
+
+
+def _short(value: float) -> str:
+    return f"{value + 0.0:.9g}"
+
+
+def _complex(value: complex, digits: int = 9) -> str:
+    if value.imag == 0.0:
+        return f"{value.real:.{digits}g}"
+    return f"{value.real:.{digits}g} {'+-'[value.imag < 0]} {abs(value.imag):.{digits}g}i"
+
+
+def _route(r: Any) -> dict[str, Any]:
+    return {
+        "T": r.T,
+        "T_error": r.T_error,
+        "z": [_pair(z) for z in r.z],
+        "polynomial": [float(p) for p in r.polynomial],
+        "error": r.error,
+        "data_error": r.data_error,
+        "verdict": r.verdict,
+        "stable": r.stable,
+    }
+
+
+def _pair(value: complex) -> list[float]:
+    return [float(np.real(value)), float(np.imag(value))]
+
+
+def _cell(value: Any) -> str:
+    return value if isinstance(value, str) else repr(float(value))
+
+
+def _finite(value: float) -> float | None:
+    return value if math.isfinite(value) else None
