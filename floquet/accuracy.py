@@ -12,9 +12,11 @@ Float = NDArray[np.floating[Any]]
 EPS = float(np.finfo(float).eps)
 OVERFLOW = "the solution grows beyond what a float can hold within one period"
 
-# Over 1,644 random systems, held against 600-bit arithmetic, `error` as a whole was never below 2.5
-# times the true error; tests/test_honesty.py fails if it is ever too small.
-SAFETY = 4.0
+# On the difference of two runs. With 4 one of 1,569 hostile systems of `benchmarks.honesty` was off
+# by 1.4 of its bound: two runs that were alike by chance.
+SAFETY = 8.0
+# On the ulps that a run may lose beside, which such a chance does not touch.
+MODEL = 3.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,7 +63,7 @@ def known(A: Float, check: Float, scale: Float, ulps: float, floor: float) -> Kn
         except OverflowError:
             raise OverflowError(OVERFLOW) from None
         apart = _share(np.abs(p - other), sensitivity)
-        own = floor + EPS * ulps
+        own = floor + MODEL * EPS * ulps
         errors = (SAFETY * apart + own) * sensitivity + rounding + also
         matrix_error = SAFETY * np.maximum(np.abs(A - check), apart * scale) + own * scale
     if not (np.all(np.isfinite(errors)) and np.all(np.isfinite(matrix_error))):

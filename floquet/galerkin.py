@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from scipy.optimize import brentq
 
 from hill import HillEquation, SteppedBeam, UniformBeam, checks
+from hill.errors import LongitudinalResonance
 
 Array = NDArray[np.float64]
 Force = Callable[[Array], Array]
@@ -133,7 +134,7 @@ def _refuse_terms(beam: UniformBeam | SteppedBeam, terms: int) -> None:
 def _refuse_resonance(sine: float, sigma: float, Omega: float) -> None:
     # sigma >= 0.5: no bar, stepped or not, resonates below a quarter wave.
     if sigma >= 0.5 and abs(sine) <= RESONANCE_ULPS * np.pi * np.spacing(sigma):
-        raise ValueError(
+        raise LongitudinalResonance(
             f"Omega = {Omega:g} is a longitudinal resonance (omega_L = {Omega / sigma:g}): "
             "the undamped axial force is infinite"
         )

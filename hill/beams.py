@@ -9,9 +9,11 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.optimize import brentq
 
 from hill import checks, stepped, uniform
 from hill.equation import HillEquation
+from hill.errors import LongitudinalResonance
 from hill.system import Parameter
 
 Float = NDArray[np.floating[Any]]
@@ -27,6 +29,9 @@ _COMMON = (
     Parameter("xi_G", 0.0, 1.0),
     Parameter("omega_L", 0.0),
 )
+
+# Points a unit of Omega/omega_L at which a longitudinal resonance is looked for.
+SCAN = 64
 
 # Rounding of the closed forms, over the largest element: against quadrature they are 21 ulps off at
 # most over 200 beams of up to 8 modes. Near a longitudinal resonance the force adds its own.
@@ -101,6 +106,12 @@ class UniformBeam:
     def frequency_names(self) -> tuple[str, ...]:
         """As the report calls them: rotation first, then bending."""
         return _names(self.modes)
+
+    def longitudinal_resonances(self, least: float, most: float) -> Float:
+        """Omega/omega_L between `least` and `most` where the axial force is infinite (4.4.16)."""
+        if self.g > 0.0:
+            return np.empty(0)
+        return np.arange(max(math.ceil(least), 1), math.floor(most) + 1, dtype=float)
 
     def natural_frequencies(self) -> Float | Complex:
         """omega_(B) and omega_(1..N) under the constant thrust, over ``omega_1``.
@@ -235,6 +246,20 @@ class SteppedBeam:
         """As the report calls them: rotation first, then bending."""
         return _names(self.modes)
 
+    def longitudinal_resonances(self, least: float, most: float) -> Float:
+        """Omega/omega_L between `least` and `most` where the axial force is infinite (5.3.13)."""
+
+        def stiffness(sigma: float) -> float:
+            nu = np.pi * sigma
+            return nu * stepped.force_stiffness(nu, self.xi_c, self.area_ratio)
+
+        # roots are about 1 apart in sigma, and nowhere nearer than the sections' own
+        grid = np.linspace(least, most, max(int(SCAN * (most - least)), 2) + 1)
+        values = np.array([stiffness(x) for x in grid])
+        changes = np.flatnonzero(np.sign(values[:-1]) * np.sign(values[1:]) < 0)
+        inner = [brentq(stiffness, grid[k], grid[k + 1], xtol=1e-14) for k in changes]
+        return np.array([x for x in (*grid[values == 0.0], *inner) if x > 0.0])
+
     def natural_frequencies(self) -> Float | Complex:
         """omega_(B) and omega_(1..N) under the constant thrust, as for `UniformBeam`."""
         return _frequencies(self._steady())
@@ -296,7 +321,7 @@ def _matrix_error(nu: float, divisor: float) -> float:
 
 def _refuse_resonance(resonant: bool, Omega: float, omega_L: float) -> None:
     if resonant:
-        raise ValueError(
+        raise LongitudinalResonance(
             f"Omega = {Omega:g} is a longitudinal resonance (omega_L = {omega_L:g}): "
             "the undamped axial force is infinite there"
         )

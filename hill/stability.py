@@ -104,7 +104,8 @@ def _judge(p: Float, errors: Float, Omega: Float, eta: Float) -> Judgement:
     low = to_T * inner.max(axis=1) * (1.0 - 8.0 * EPS) - eta - rounding
     T = np.clip(to_T * log_R(x, np.where(real, 0.0, y)).max(axis=1) - eta, low, high)
 
-    inside, beyond = _by_signs(p, errors, z, np.pi * eta / Omega)
+    between = 0.5 * (z.real[:, :-1] + z.real[:, 1:])
+    inside, beyond = by_signs(p, errors, between, np.pi * eta / Omega)
     stable = (high < 0.0) | (inside & (eta >= 0.0))
     unstable = ((low > 0.0) | beyond) & ~stable
     # all z are shown to be real and within [-1, 1]: R is 1
@@ -185,23 +186,32 @@ def _is_real(z: Complex, radius: Float) -> Bool:
     return np.asarray((z.imag == 0.0) & np.all(apart > radius[:, :, None], axis=2))
 
 
-def _by_signs(p: Float, errors: Float, z: Complex, decay: Float) -> tuple[Bool, Bool]:
+def by_signs(p: Float, errors: Float, between: Float, decay: Float) -> tuple[Bool, Bool]:
     """Whether P's signs alone show all z to be inside the edges, or one to be beyond.
 
     At T = 0 a real z is at an edge +-c, c = cosh(pi eta/Omega), or 1 undamped. P that changes sign
     n times within (-c, c) has all its roots there, real and simple. P(c) < 0 or (-1)^n P(-c) < 0
     leaves a real root beyond, since P is monic.
+
+    Parameters
+    ----------
+    p, errors : (k, n + 1) ndarray
+        Monic; ``errors[:, 0]`` is 0.
+    between : (k, n - 1) ndarray
+        Descending; where the signs are looked at, best between the roots.
+    decay : (k,) ndarray
+        pi eta/Omega.
     """
-    k, n = z.shape
+    k, n = len(p), p.shape[1] - 1
     with np.errstate(over="ignore", invalid="ignore"):
         c = np.where(decay > 0.0, np.cosh(decay), 1.0)[:, None]
-        between = 0.5 * (z.real[:, :-1] + z.real[:, 1:])
         x = np.hstack([c, between, -c])
+        size = np.abs(x)
         value, moduli, unsure = (np.zeros((k, n + 1)) for _ in range(3))
         for j in range(n + 1):
             value = value * x + p[:, j, None]
-            moduli = moduli * np.abs(x) + np.abs(p[:, j, None])
-            unsure = unsure * np.abs(x) + errors[:, j, None]
+            moduli = moduli * size + np.abs(p[:, j, None])
+            unsure = unsure * size + errors[:, j, None]
         # the edge itself is known to a few ulps of the exponent
         margin = 1.01 * unsure + HORNER * (n + 1) * (2.0 + np.abs(decay[:, None])) * EPS * moduli
         sign = np.where(np.abs(value) > margin, np.sign(value), 0.0)
@@ -210,6 +220,20 @@ def _by_signs(p: Float, errors: Float, z: Complex, decay: Float) -> tuple[Bool, 
     inside = np.all(sign == expected, axis=1) & ordered
     beyond = (sign[:, 0] < 0.0) | (sign[:, -1] * expected[-1] < 0.0)
     return inside, beyond
+
+
+def separators(p: Float) -> Float:
+    """Points between the roots of P, descending (k, n - 1): where P' is zero, if that is cheap."""
+    n = p.shape[1] - 1
+    if n == 1:
+        return np.empty((len(p), 0))
+    if n == 2:
+        return -0.5 * p[:, 1:2]
+    if n == 3:
+        spread = np.sqrt(np.maximum(p[:, 1] ** 2 - 3.0 * p[:, 2], 0.0))
+        return np.stack([-p[:, 1] + spread, -p[:, 1] - spread], axis=1) / 3.0
+    z = roots(p).real
+    return np.asarray(0.5 * (z[:, :-1] + z[:, 1:]))
 
 
 def log_R(x: Float, y: Float) -> Float:

@@ -9,14 +9,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from compare.charts import chebyshev, surface
-from compare.charts.nodes import ROUTES, Nodes
+from compare.charts import surface
+from compare.charts.nodes import ROUTES, Nodes, solved
 from compare.charts.parameters import Axis, Beam, Family
-from compare.charts.result import Chart, Omega_and_eta, from_smooth, one_by_one
+from compare.charts.result import Chart, Omega_and_eta, from_smooth, ln_R, on_grid
 from compare.workers import MapLike, mapper
-from floquet.batch import polynomials
 from hill import checks
-from hill.roots import growth
 
 Float = NDArray[np.floating[Any]]
 
@@ -86,15 +84,24 @@ def chart(
     low, high = np.array([axis.span for axis in drawn]).T
     with mapper(workers) as run:
         sampler = Nodes(family, drawn, route, run, Path(resume) if resume else None, progress)
-        fitted = surface.fit(sampler, low, high, tolerance, partial(_wanted, drawn))
-    T, direct = _grid(fitted, drawn, family)
+        fitted = surface.fit(
+            sampler,
+            low,
+            high,
+            tolerance,
+            partial(_wanted, drawn),
+            partial(_singular, drawn, family),
+        )
+    T, direct, error = _grid(fitted, drawn, family)
     smooth, apart = sampler.sampled
+    checked, checks_made = _check(fitted, drawn, family, "hill" if route == "hill" else "floquet")
     return Chart(
         axes=drawn,
         family=family,
         T=T,
-        error=fitted.error,
-        checked=_check(fitted, drawn, family),
+        error=error,
+        checked=checked,
+        checks=checks_made,
         disagreement=sampler.disagreement if route == "both" else float("nan"),
         sampled=from_smooth(drawn, smooth),
         apart=apart,
@@ -116,40 +123,37 @@ def _wanted(axes: tuple[Axis, ...], low: Float, high: Float) -> float:
     return max(points, share * FINE)
 
 
-def _grid(fitted: surface.Surface, axes: tuple[Axis, ...], family: Family) -> tuple[Float, int]:
-    """T on the whole grid, the last axis of the chart first."""
-    points = [axis.points for axis in axes]
-    smooth = [axis.to_smooth(x) for axis, x in zip(axes, points, strict=True)]
-    log_R = np.full([len(x) for x in points], np.nan)
-    direct = 0
-    for piece in fitted.pieces:
-        chosen = [
-            np.flatnonzero((s >= a) & (s <= b))
-            for s, a, b in zip(smooth, piece.low, piece.high, strict=True)
-        ]
-        if any(len(index) == 0 for index in chosen):
-            continue
-        own = [s[i] for s, i in zip(smooth, chosen, strict=True)]
-        shape = tuple(map(len, own))
-        if piece.series is None:
-            mesh = np.stack([m.ravel() for m in np.meshgrid(*own, indexing="ij")], axis=1)
-            P = one_by_one(mesh, axes, family)[0]
-            direct += len(mesh)
-        else:
-            ends = zip(own, piece.low, piece.high, strict=True)
-            local = (np.clip((2.0 * s - a - b) / (b - a), -1.0, 1.0) for s, a, b in ends)
-            P = chebyshev.on_grid(piece.series, tuple(local))
-            P = np.concatenate([np.ones((1, *shape)), P]).reshape(len(P) + 1, -1)
-        log_R[np.ix_(*chosen)] = _log_R(P).reshape(shape)
-    return _argument(log_R, axes, family), direct
+def _singular(axes: tuple[Axis, ...], family: Family, low: Float, high: Float) -> int | None:
+    """The axis to cut by where a rectangle of smooth coordinates has a pole."""
+    ends = [
+        sorted((float(a.from_smooth(x)), float(a.from_smooth(y))))
+        for a, x, y in zip(axes, low, high, strict=True)
+    ]
+    names = [axis.name for axis in axes]
+    found = family.singular(
+        dict(zip(names, (e[0] for e in ends), strict=True)),
+        dict(zip(names, (e[1] for e in ends), strict=True)),
+    )
+    return None if found is None else names.index(found)
 
 
-def _log_R(P: Float) -> Float:
-    """Ln R of each P, (n + 1, k); infinite where there is no P, the force being so."""
-    there = np.isfinite(P[0])
-    result = np.full(P.shape[1], np.inf)
-    result[there] = growth(P[:, there])
-    return result
+def _grid(
+    fitted: surface.Surface, axes: tuple[Axis, ...], family: Family
+) -> tuple[Float, int, float]:
+    """T on the whole grid, the last axis of the chart first; how many points went alone; P's error.
+
+    Of the series, if there are any; of the points alone where there are none.
+    """
+    log_R = np.full([axis.count for axis in axes], np.nan)
+    direct, worst = 0, 0.0
+    for cells in on_grid(fitted, axes, family):
+        log_R[np.ix_(*cells.chosen)] = ln_R(cells.P).reshape(cells.shape)
+        if cells.direct:
+            direct += cells.P.shape[1]
+            worst = max(
+                worst, float(np.max(cells.error, where=np.isfinite(cells.error), initial=0.0))
+            )
+    return _argument(log_R, axes, family), direct, fitted.error or worst
 
 
 def _argument(log_R: Float, axes: tuple[Axis, ...], family: Family) -> Float:
@@ -160,8 +164,13 @@ def _argument(log_R: Float, axes: tuple[Axis, ...], family: Family) -> Float:
     return np.asarray(np.transpose(log_R * (Omega / np.pi) - eta))
 
 
-def _check(fitted: surface.Surface, axes: tuple[Axis, ...], family: Family) -> float:
-    """Largest difference from direct evaluation at random points.
+def _check(
+    fitted: surface.Surface, axes: tuple[Axis, ...], family: Family, route: str
+) -> tuple[float | None, int]:
+    """Largest difference from direct evaluation at random points, and at how many of them.
+
+    A point counts where direct evaluation knows P as well as the series claims to. Where there is
+    none, nothing is checked, and nothing is what is said.
 
     Raises
     ------
@@ -171,16 +180,19 @@ def _check(fitted: surface.Surface, axes: tuple[Axis, ...], family: Family) -> f
     low, high = np.array([axis.span for axis in axes]).T
     smooth = low + (high - low) * np.random.default_rng(0).random((CHECKS, len(axes)))
     P, error = surface.evaluate(fitted, smooth)
-    known = np.flatnonzero(np.isfinite(P[0])) if len(P) > 1 else np.array([], int)
+    known = np.flatnonzero(np.isfinite(error))
     if not len(known):
-        return 0.0
+        return None, 0
     values = from_smooth(axes, smooth[known])
     named = {axis.name: x for axis, x in zip(axes, values.T, strict=True)}
-    other = polynomials(family.equations(named, closed_form=False))
-    apart = np.max(np.abs(P[:, known].T - other.coefficients), axis=1)
-    if np.any(apart > error[known] + other.errors):
+    lines = solved(family, named, route)
+    own = lines[:, -2]
+    apart = np.max(np.abs(P[:, known].T - lines[:, :-2]), axis=1)
+    if np.any(apart > error[known] + own):
+        worst = int(np.argmax(apart - error[known] - own))
         raise ValueError(
-            f"tolerance: the series is off by {apart.max():.0e} where its bound is "
-            f"{error[known].max():.0e}; ask for a smaller one"
+            f"tolerance: the series is off by {apart[worst]:.0e} where its bound is "
+            f"{error[known][worst]:.0e}; ask for a smaller one"
         )
-    return float(apart.max())
+    counts = own <= error[known]
+    return (float(apart[counts].max()) if np.any(counts) else None), int(np.sum(counts))

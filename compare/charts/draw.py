@@ -118,6 +118,43 @@ def _growth(figure: Any, axes: Any, chart: Chart) -> None:
             rasterized=True,
         )
         figure.colorbar(shown, ax=axes, pad=0.015, label="$T$, twice the growth exponent")
+    _states(axes, chart)
+
+
+def _states(axes: Any, chart: Chart) -> None:
+    """Where no verdict is shown, and where T is beyond a float or there is no equation."""
+    from matplotlib.colors import ListedColormap
+    from matplotlib.patches import Patch
+
+    x, y = chart.axes
+    infinite = np.isinf(chart.T)
+    found = (
+        (chart.undecided() & ~infinite, "undecided", "0.55"),
+        (chart.undecided() & infinite, "longitudinal resonance", "tab:orange"),
+        (chart.unstable() & infinite, "growth beyond a float", "tab:red"),
+    )
+    patches = [Patch(fc="white", ec="black", lw=0.4, label="stable")]
+    for where, label, colour in found:
+        if np.any(where):
+            axes.imshow(
+                np.ma.array(np.ones(where.shape), mask=~where),
+                extent=(x.low, x.high, y.low, y.high),
+                origin="lower",
+                aspect="auto",
+                cmap=ListedColormap([colour]),
+                interpolation="none",
+                rasterized=True,
+            )
+            patches.append(Patch(fc=colour, ec="none", label=label))
+    if len(patches) > 1:
+        axes.legend(
+            handles=patches,
+            loc="upper left",
+            bbox_to_anchor=(0.0, -0.12),
+            ncols=len(patches),
+            fontsize=6.5,
+            frameon=False,
+        )
 
 
 def _disagreement(figure: Any, axes: Any, chart: Chart) -> None:

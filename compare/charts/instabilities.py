@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from compare.boundaries import Tongue
 from compare.charts.parameters import Axis
 from compare.charts.result import Chart
-from compare.charts.tongues import OnSurface, axes_of, merged, on_surface, stations, tongues
+from compare.charts.tongues import ORDERS, OnSurface, axes_of, merged, on_surface, stations, tongues
 from compare.indicators import edge_function, growth
 from compare.resonances import Resonance, half_width, modal
 
@@ -64,7 +64,7 @@ class Instability:
 
 
 def instabilities(
-    chart: Chart, boundaries: tuple[Tongue, ...] | None = None, orders: int = 2
+    chart: Chart, boundaries: tuple[Tongue, ...] | None = None, orders: int = ORDERS
 ) -> tuple[Instability, ...]:
     """The instabilities of a chart of Omega and another parameter, widest first.
 

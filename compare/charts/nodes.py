@@ -1,8 +1,8 @@
 """Evaluations of P for a chart: by either route or both, on several processes, kept on disk."""
 
 import hashlib
-from collections.abc import Callable
-from dataclasses import dataclass, fields, replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, fields
 from functools import cache
 from importlib.resources import files
 from pathlib import Path
@@ -17,6 +17,7 @@ from compare.workers import MapLike, WorkersError, unordered
 from floquet import batch as by_floquet
 from hill import HillEquation
 from hill import batch as by_hill
+from hill.errors import LongitudinalResonance
 
 Float = NDArray[np.floating[Any]]
 
@@ -64,21 +65,33 @@ def evaluate(job: Job) -> Float:
     -------
     (k, n + 3) ndarray
         Coefficients, highest power first; bound on their error; difference between the routes,
-        over the largest coefficient (nan where only one was asked).
+        over the largest coefficient (nan where only one was asked). A line of nan on a longitudinal
+        resonance, of infinities where P is beyond a float.
     """
     values = {a.name: a.from_smooth(x) for a, x in zip(job.axes, job.points.T, strict=True)}
+    return solved(job.family, values, job.route)
+
+
+def solved(family: Family, values: Mapping[str, Float], route: str) -> Float:
+    """P at some values of the varied parameters, as `evaluate`.
+
+    Only what says that there is no answer is taken for one: nan where the axial force is infinite,
+    and there is no equation; infinity where P is beyond a float. Anything else is told.
+    """
     own: list[tuple[Float, Float]] = []
+    count = len(next(iter(values.values())))
     try:
-        if job.route in ("floquet", "both"):
-            own.append(_both_of(by_floquet, job.family.equations(values, closed_form=False)))
-        if job.route in ("hill", "both"):
-            own.append(_both_of(by_hill, job.family.equations(values, closed_form=True)))
-    except (ValueError, OverflowError):
-        if len(job.points) > 1:
-            halves = np.array_split(job.points, 2)
-            return np.vstack([evaluate(replace(job, points=half)) for half in halves])
-        # a node on a longitudinal resonance, where the force is infinite, has no P
-        return np.full((1, job.family.beam.modes + 4), np.nan)
+        if route in ("floquet", "both"):
+            own.append(_both_of(by_floquet, family.equations(values, closed_form=False)))
+        if route in ("hill", "both"):
+            own.append(_both_of(by_hill, family.equations(values, closed_form=True)))
+    except (LongitudinalResonance, OverflowError) as reason:
+        if count > 1:
+            halves = np.array_split(np.arange(count), 2)
+            parts = ({name: x[half] for name, x in values.items()} for half in halves)
+            return np.vstack([solved(family, part, route) for part in parts])
+        lost = np.nan if isinstance(reason, LongitudinalResonance) else np.inf
+        return np.full((1, family.coordinates + 3), lost)
     P, errors = own[0]
     apart = np.full(len(P), np.nan)
     if len(own) == 2:
@@ -128,7 +141,7 @@ class Nodes:
         self.disagreement = 0.0
         self.resumed = 0
         self.known: dict[bytes, Float] = {}
-        self.columns = family.beam.modes + 4
+        self.columns = family.coordinates + 3
         self.store: Store | None = None
         if store is not None:
             self.store = Store(store, self.owner, len(axes) + self.columns)
@@ -223,7 +236,8 @@ def numerics() -> str:
     """A name for what computes: it changes whenever `hill` or `floquet` do."""
     digest = hashlib.sha256()
     for package in ("hill", "floquet"):
-        sources = {f.name: f for f in files(package).iterdir() if f.name.endswith((".py", ".c"))}
-        for name in sorted(sources):
-            digest.update(name.encode() + b"\0" + sources[name].read_bytes() + b"\0")
+        root = Path(str(files(package)))
+        for path in sorted(p for p in root.rglob("*") if p.suffix in (".py", ".c")):
+            name = path.relative_to(root).as_posix()
+            digest.update(name.encode() + b"\0" + path.read_bytes() + b"\0")
     return digest.hexdigest()[:16]

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,10 @@ Beam = UniformBeam | SteppedBeam
 FORCING = ("Omega", "gamma", "eta")
 WHOLE = ("modes",)
 MARGIN = 1.1
+
+NEAR = 0.25
+"""Widths of a box: a series over it whose nearest pole is farther than this converges by 2.6 a
+term, whatever the residue."""
 
 
 @dataclass(frozen=True)
@@ -108,6 +113,42 @@ class Family:
         forcing |= {name: float(varied[name]) for name in FORCING if name in varied}
         own = {name: float(value) for name, value in varied.items() if name not in FORCING}
         return (replace(self.beam, **own) if own else self.beam), forcing  # type: ignore[arg-type]
+
+    @property
+    def coordinates(self) -> int:
+        """Coordinates of the system, n."""
+        return self.beam.modes + 1
+
+    def singular(self, low: Mapping[str, float], high: Mapping[str, float]) -> str | None:
+        """The parameter to cut by where a longitudinal resonance is in a box, or close by; or None.
+
+        The system says where its resonances are; the box counts with a margin of `NEAR` on each
+        side, in Omega/omega_L, so that a series over it has none at its door.
+        """
+        beams, ratios = [], []
+        for corner in product(*((low[name], high[name]) for name in low)):
+            beam, forcing = self.at(dict(zip(low, corner, strict=True)))
+            omega_L = getattr(beam, "omega_L", np.inf)
+            if not hasattr(beam, "longitudinal_resonances") or np.isinf(omega_L):
+                return None
+            beams.append(beam)
+            ratios.append(forcing["Omega"] / omega_L)
+        least, most = min(ratios), max(ratios)
+        margin = NEAR * (most - least) + 1e-9 * most
+        least, most = max(least - margin, 0.0), most + margin
+        distinct = set(beams)
+        below = {len(beam.longitudinal_resonances(0.0, least)) for beam in distinct}
+        # one that is on another side of the box at another corner has passed through
+        if len(below) == 1 and not any(
+            len(beam.longitudinal_resonances(least, most)) for beam in distinct
+        ):
+            return None
+        spans = {
+            name: high[name] / low[name] - 1.0 if low[name] > 0.0 else np.inf
+            for name in low
+            if name not in ("gamma", "eta", "T0", "K_theta", "xi_G", "g", "inertia_ratio")
+        }
+        return max(spans, key=lambda name: spans[name]) if spans else None
 
     def equations(self, points: Mapping[str, Float], *, closed_form: bool) -> list[HillEquation]:
         """The equations at many points, their matrices made once where they are the same.

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hill.stability import judge
+from hill.stability import by_signs, judge, separators
 
 Complex = NDArray[np.complexfloating[Any]]
 Float = NDArray[np.floating[Any]]
@@ -71,11 +71,37 @@ def solve(polynomial: Float, error: Float, Omega: Float, eta: Float) -> Points:
     )
 
 
-def largest_error(n: int, error: float) -> float:
-    """More than the error of ln R can be where T is small: all n roots together, at +1 or -1.
+def verdicts(p: Float, error: Float, log_R: Float, Omega: Float, eta: Float) -> NDArray[np.str_]:
+    """The verdict of many P(z), (k, n + 1), as `solve` has it, at a hundredth of the price.
+
+    Most are settled by P's signs or by a growth well beyond its error; only the others have discs
+    put about their roots.
+
+    Parameters
+    ----------
+    log_R : (k,) ndarray
+        Computed ln R.
+    """
+    n = p.shape[1] - 1
+    errors = np.broadcast_to(error[:, None], p.shape).copy()
+    errors[:, 0] = 0.0
+    decay = np.pi * eta / Omega
+    inside, beyond = by_signs(p, errors, separators(p), decay)
+    # the bound is for roots about [-1, 1], whose polynomials are no larger than this
+    near = np.max(np.abs(p), axis=1) <= MARGIN * 2.0**n
+    grows = near & (log_R - largest_error(n, error) > decay + 8.0 * EPS * (1.0 + np.abs(decay)))
+    stable = inside & (eta >= 0.0)
+    result = np.where(stable, "stable", np.where(beyond | grows, "unstable", "undecided"))
+    rest = np.flatnonzero(result == "undecided")
+    result[rest] = judge(p[rest], errors[rest], Omega[rest], eta[rest]).verdict
+    return np.asarray(result)
+
+
+def largest_error(n: int, error: Float) -> Float:
+    """More than the error of ln R can be for roots near [-1, 1]: all n together, at +1 or -1.
 
     Within radius r of [-1, 1] ln R is at most arccosh(1 + r) < sqrt(2 r).
     """
     beyond = MARGIN * (error + 3 * n * EPS * 2.0**n)
     radius = (beyond * np.sum(2.0 ** np.arange(n))) ** (1.0 / n)
-    return float(np.sqrt(2.0 * radius))
+    return np.asarray(np.sqrt(2.0 * radius))

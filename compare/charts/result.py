@@ -1,15 +1,17 @@
 """A chart: T on its grid, and the solution anywhere in it."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from compare.charts import nodes, surface
+from compare.charts import chebyshev, nodes, surface
 from compare.charts.parameters import Axis, Family
-from compare.charts.points import Points, largest_error, solve
+from compare.charts.points import Points, solve, verdicts
+from hill.roots import growth
 
 Float = NDArray[np.floating[Any]]
 
@@ -30,9 +32,13 @@ class Chart:
     T : ndarray
         Characteristic argument (7.1.1), shape (..., points of y, points of x).
     error : float
-        Bound on the absolute error of the interpolated coefficients of P.
-    checked : float
-        Largest difference from direct evaluation at `CHECKS` random points; never above `error`.
+        Bound on the absolute error of the interpolated coefficients of P; of those evaluated
+        directly where none is interpolated.
+    checked : float or None
+        Largest difference from direct evaluation at random points; never above `error`. None where
+        nothing could be checked.
+    checks : int
+        At how many random points.
     disagreement : float
         Largest difference between the two routes at the nodes, over the largest coefficient of P;
         nan where only one route was asked.
@@ -56,7 +62,8 @@ class Chart:
     family: Family
     T: Float
     error: float
-    checked: float
+    checked: float | None
+    checks: int
     disagreement: float
     sampled: Float
     apart: Float
@@ -87,9 +94,70 @@ class Chart:
         """
         return _at(self, values)
 
+    @cached_property
+    def _verdict(self) -> NDArray[np.str_]:
+        return _verdicts(self)
+
+    def verdict(self) -> NDArray[np.str_]:
+        """What is shown on the grid, like `T`: "stable", "unstable" or "undecided".
+
+        Undecided next to boundaries, on undamped lines where z meet (gamma = 0 at a resonance), and
+        on a longitudinal resonance, where there is no equation.
+        """
+        return self._verdict
+
     def unstable(self) -> NDArray[np.bool_]:
-        """Where on the grid T exceeds what its error could explain, like `T`."""
-        return _unstable(self)
+        """Where on the grid the system is shown to be unstable, like `T`."""
+        return np.asarray(self._verdict == "unstable")
+
+    def undecided(self) -> NDArray[np.bool_]:
+        """Where on the grid neither is shown, like `T`."""
+        return np.asarray(self._verdict == "undecided")
+
+
+@dataclass(frozen=True, eq=False)
+class Cells:
+    """A part of the grid: which points along each axis, P (n + 1, k) there and its error (k,)."""
+
+    chosen: list[NDArray[np.int_]]
+    shape: tuple[int, ...]
+    P: Float
+    error: Float
+    direct: bool
+
+
+def on_grid(fitted: surface.Surface, axes: tuple[Axis, ...], family: Family) -> Iterator[Cells]:
+    """P on the whole grid, a piece of the surface at a time."""
+    points = [axis.points for axis in axes]
+    smooth = [axis.to_smooth(x) for axis, x in zip(axes, points, strict=True)]
+    for piece in fitted.pieces:
+        chosen = [
+            np.flatnonzero((s >= a) & (s <= b))
+            for s, a, b in zip(smooth, piece.low, piece.high, strict=True)
+        ]
+        if any(len(index) == 0 for index in chosen):
+            continue
+        shape = tuple(map(len, chosen))
+        if piece.series is None:
+            own = [x[i] for x, i in zip(points, chosen, strict=True)]
+            mesh = np.stack([m.ravel() for m in np.meshgrid(*own, indexing="ij")], axis=1)
+            P, error = one_by_one(mesh, axes, family)
+        else:
+            own = [s[i] for s, i in zip(smooth, chosen, strict=True)]
+            ends = zip(own, piece.low, piece.high, strict=True)
+            local = (np.clip((2.0 * s - a - b) / (b - a), -1.0, 1.0) for s, a, b in ends)
+            P = chebyshev.on_grid(piece.series, tuple(local))
+            P = np.concatenate([np.ones((1, *shape)), P]).reshape(len(P) + 1, -1)
+            error = np.full(P.shape[1], piece.error)
+        yield Cells(chosen, shape, P, error, piece.series is None)
+
+
+def ln_R(P: Float) -> Float:
+    """Ln R of each P, (n + 1, k); infinite where there is none: the force, or P, is so."""
+    there = np.all(np.isfinite(P), axis=0)
+    result = np.full(P.shape[1], np.inf)
+    result[there] = growth(P[:, there])
+    return result
 
 
 def _at(chart: Chart, values: Mapping[str, ArrayLike]) -> Points:
@@ -108,7 +176,7 @@ def _at(chart: Chart, values: Mapping[str, ArrayLike]) -> Points:
     P, error = surface.evaluate(chart.surface, smooth)
     without = ~np.isfinite(error)
     if np.any(without):
-        found, own = one_by_one(smooth[without], chart.axes, chart.family)
+        found, own = one_by_one(points[without], chart.axes, chart.family)
         P = np.full((len(found), len(points)), np.nan) if len(P) == 1 else P
         P[:, without], error[without] = found, own
     if np.any(~np.isfinite(error)):
@@ -120,24 +188,39 @@ def _at(chart: Chart, values: Mapping[str, ArrayLike]) -> Points:
     return solve(P.T, error, Omega, eta)
 
 
-def _unstable(chart: Chart) -> NDArray[np.bool_]:
-    """Only where T is so small that its error could matter are the roots' discs looked at."""
+def _verdicts(chart: Chart) -> NDArray[np.str_]:
     axes = chart.axes
+    result = np.full([axis.count for axis in axes], "undecided")
     grid = dict(zip((a.name for a in axes), np.ix_(*(a.points for a in axes)), strict=True))
-    Omega = np.transpose(np.asarray(Omega_and_eta(grid, chart.family)[0]))
-    most = largest_error(chart.family.beam.modes + 1, chart.error) * Omega / np.pi
-    result = np.asarray(chart.T > 0.0) & ~np.isnan(chart.T)
-    close = result & (most >= chart.T)
-    where = np.nonzero(close)
-    points = {a.name: a.points[i] for a, i in zip(axes, where[::-1], strict=True)}
-    result[where] = chart.at(**points).unstable
-    return result
+    shape = result.shape
+    Omega, eta = (np.broadcast_to(v, shape) for v in Omega_and_eta(grid, chart.family))
+    for cells in on_grid(chart.surface, axes, chart.family):
+        at = np.ix_(*cells.chosen)
+        own = np.full(cells.P.shape[1], "undecided")
+        # P beyond a float has a root beyond any edge
+        own[np.any(np.isinf(cells.P), axis=0)] = "unstable"
+        there = np.all(np.isfinite(cells.P), axis=0) & np.isfinite(cells.error)
+        own[there] = verdicts(
+            np.ascontiguousarray(cells.P[:, there].T),
+            cells.error[there],
+            growth(cells.P[:, there]),
+            Omega[at].ravel()[there],
+            eta[at].ravel()[there],
+        )
+        result[at] = own.reshape(cells.shape)
+    return np.ascontiguousarray(np.transpose(result))
 
 
-def one_by_one(smooth: Float, axes: tuple[Axis, ...], family: Family) -> tuple[Float, Float]:
-    """P, (n + 1, k), and its error, where the series does not converge; nan without a P."""
-    parts = np.array_split(smooth, len(smooth) // DIRECT + 1)
-    lines = np.vstack([nodes.evaluate(nodes.Job(family, axes, part, "floquet")) for part in parts])
+def one_by_one(values: Float, axes: tuple[Axis, ...], family: Family) -> tuple[Float, Float]:
+    """P, (n + 1, k), and its error, at parameters (k, axes), where the series does not converge.
+
+    Columns of nan where there is no equation, of infinities where P is beyond a float.
+    """
+    parts = np.array_split(values, len(values) // DIRECT + 1)
+    names = [axis.name for axis in axes]
+    lines = np.vstack(
+        [nodes.solved(family, dict(zip(names, part.T, strict=True)), "floquet") for part in parts]
+    )
     return lines[:, :-2].T, lines[:, -2]
 
 

@@ -26,6 +26,10 @@ START, MOST = 9, 129
 RESOLVED = 1e-2
 """A series whose last coefficients are below this share of the largest value has begun to decay."""
 
+RANGE = 1e6
+"""A series' error is one for the whole piece: where P's largest coefficient varies by more than
+this, it would say nothing where P is small."""
+
 DEEPEST = 7
 """Cuts of one axis; a piece is then 1/128 of the chart."""
 
@@ -73,6 +77,7 @@ def fit(
     high: Float,
     tolerance: float,
     wanted: Callable[[Float, Float], float],
+    singular: Callable[[Float, Float], int | None] = lambda low, high: None,
 ) -> Surface:
     """Cover a rectangle with series whose error is below `tolerance` times the largest |P|.
 
@@ -87,6 +92,9 @@ def fit(
     wanted : callable
         Corners of a rectangle to the number of points that are wanted there: one that has been cut
         is not sampled at more points than that.
+    singular : callable, optional
+        Corners of a rectangle to the axis to cut by, where P has a pole in it or next to it: it
+        gets no series, be the residue as small as it may.
     """
     known = _Known(sample, np.asarray(low, float), np.asarray(high, float))
     pieces: list[Piece] = []
@@ -94,7 +102,12 @@ def fit(
     while pending:
         a, b, cuts = pending.pop()
         most = wanted(a, b) if any(cuts) else np.inf
-        piece, worst = _piece(known, a, b, tolerance, most)
+        across = singular(a, b)
+        if across is None:
+            piece, worst = _piece(known, a, b, tolerance, most)
+        else:
+            few = most < START ** len(a)
+            piece, worst = (Piece(a, b, None, np.inf) if few else None), across
         if piece is not None:
             pieces.append(piece)
         elif cuts[worst] >= DEEPEST:
@@ -151,6 +164,9 @@ def _piece(
         values, errors = known.on(grid)
         if not np.all(np.isfinite(values)):
             return None, _across_pole(values)
+        sizes = np.maximum(np.max(np.abs(values), axis=0), 1.0)
+        if sizes.max() > RANGE * sizes.min():
+            return None, _steepest(sizes)
         series = chebyshev.coefficients(values, over)
         size = max(1.0, float(np.max(np.abs(values))))
         tails = np.array([chebyshev.decay(series, axis) for axis in over])
@@ -185,6 +201,12 @@ def _expected(n: int, tail: float, before: tuple[int, float], allowed: float) ->
         return n
     rate = np.log(before[1] / tail) / (n - before[0])
     return float(n + np.log(tail / allowed) / rate)
+
+
+def _steepest(sizes: Float) -> int:
+    """The axis along which P's size varies most."""
+    logs = np.log(sizes)
+    return int(np.argmax([np.ptp(logs, axis=k).max() for k in range(sizes.ndim)]))
 
 
 def _across_pole(values: Float) -> int:

@@ -24,6 +24,12 @@ Float = NDArray[np.floating[Any]]
 STATIONS = 33
 """Values of y at which the edges are solved for, before those added where a tongue closes."""
 
+ORDERS = 3
+"""Resonances are followed up to this order where nothing else is asked."""
+
+BESIDE = 1.5
+"""How far beyond the chart's ends, as a factor, a resonance is followed that may reach into it."""
+
 SAME = 0.02
 """Two tongues are one where their edges differ by no more than this share of the width; they are
 compared by straight lines between stations."""
@@ -154,7 +160,7 @@ def stations(y: Axis) -> list[float]:
 
 
 def tongues(
-    chart: Chart, orders: int = 2, progress: Callable[[int, int], Any] | None = None
+    chart: Chart, orders: int = ORDERS, progress: Callable[[int, int], Any] | None = None
 ) -> tuple[Tongue, ...]:
     """Boundaries of the instabilities of the first orders over a chart of Omega and another one.
 
@@ -225,7 +231,8 @@ def _one(
     x: Axis,
 ) -> list[Tongue]:
     """The pieces of one resonance's boundary that reach into the chart."""
-    if not any(x.low <= resonance.Omega(omega) <= x.high for omega in frequencies):
+    low, high = x.low / BESIDE, x.high * BESIDE
+    if not any(low <= resonance.Omega(omega) <= high for omega in frequencies):
         return []
     return [
         tongue

@@ -20,10 +20,12 @@ from compare.charts.draw import QUANTITIES, picture
 from compare.charts.instabilities import Instability, instabilities
 from compare.charts.nodes import ROUTES
 from compare.charts.result import Chart
-from compare.charts.tongues import axes_of, tongues
+from compare.charts.tongues import ORDERS, axes_of, tongues
+from compare.charts.unnamed import Region, unnamed
 from compare.cluster import connect
 from compare.commands.terminal import terminal
 from compare.output import check_writable, write_whole
+from hill import checks
 
 SUMMARY = "chart the characteristic argument T over two parameters or more"
 EPILOG = """\
@@ -83,6 +85,13 @@ def configure(p: argparse.ArgumentParser) -> None:
         help="what a picture shows: T, or how far the routes differ at the nodes (default T)",
     )
     p.add_argument("--tongues", type=Path, metavar="FILE", help="edges of the tongues, as .csv")
+    p.add_argument(
+        "--order",
+        type=int,
+        default=ORDERS,
+        metavar="K",
+        help=f"tongues up to this order, 2 omega_i/K, (omega_i +- omega_j)/K (default {ORDERS})",
+    )
     p.add_argument("--route", choices=ROUTES, default="both", help="who evaluates (default both)")
     p.add_argument("--tolerance", type=float, default=1e-11, help="of P (default 1e-11)")
     p.add_argument(
@@ -113,13 +122,16 @@ def run(options: argparse.Namespace) -> int:
             )
         suffix = options.output.suffix if options.output else ""
         boundaries: Sequence[Tongue | Curve] = ()
+        nameless: tuple[Region, ...] = ()
         found: tuple[Instability, ...] = ()
         has_tongues = len(result.axes) == 2 and "Omega" in {a.name for a in result.axes}
         drawn = suffix in PICTURES and options.show == "T"
         if options.tongues or (has_tongues and drawn):
             task = bar.add_task("resonances followed", total=None)
-            own = tongues(result, progress=lambda _done, _all: bar.advance(task))
+            order = checks.count("order", options.order, least=1)
+            own = tongues(result, order, progress=lambda _done, _all: bar.advance(task))
             found, boundaries = instabilities(result, own), own
+            nameless = unnamed(result, own)
         elif drawn and len(result.axes) == 2:
             bar.add_task("boundaries", total=None)
             boundaries = curves(result)
@@ -129,7 +141,7 @@ def run(options: argparse.Namespace) -> int:
             write_whole(options.tongues, files.tongues_csv(found, axes_of(result)[1].name))
     if found:
         terminal().print(_listed(found, axes_of(result)[1].name))
-    for line in describe(result):
+    for line in (*describe(result), *map(_told, nameless)):
         print(line)
     # P's error is absolute, the disagreement relative to P's largest coefficient, 1 or more
     return int(options.route == "both" and result.disagreement > max(result.error, 1e-11))
@@ -179,20 +191,35 @@ def _content(result: Chart, suffix: str, boundaries: Sequence[Any], show: str) -
 
 def describe(result: Chart) -> list[str]:
     """What was found, in a few lines."""
-    unstable = float(np.mean(result.unstable()))
+    unstable, undecided = float(np.mean(result.unstable())), float(np.mean(result.undecided()))
     size = " x ".join(str(axis.count) for axis in result.axes)
     lines = [
         f"{size} points from {result.nodes} evaluations of P in {result.seconds:.1f} s"
         + (f" ({result.resumed} of them were on disk)" if result.resumed else "")
-        + f"; {unstable:.1%} unstable, T at most {np.nanmax(result.T):.5f}.",
-        f"P is known to {result.error:.0e}; at random points it is off by {result.checked:.0e} "
-        "at most.",
+        + f"; {_share(unstable)} unstable, {_share(undecided)} undecided, T at most "
+        f"{np.max(result.T):.5f}.",
+        f"P's coefficients are known to {result.error:.0e}; "
+        + (
+            "none of them could be checked at random points."
+            if result.checked is None
+            else f"at {result.checks} random points they are off by {result.checked:.0e} at most."
+        ),
     ]
     if result.direct:
         lines.append(f"{result.direct} points, near a longitudinal resonance, one by one.")
     if result.route == "both":
         lines.append(f"The two routes differ by {result.disagreement:.0e} of P at the nodes.")
     return lines
+
+
+def _told(region: Region) -> str:
+    where = ", ".join(f"{name} {low:.5g} to {high:.5g}" for name, low, high in region.extent)
+    return f"Unstable without a tongue's name: {where}, T up to {region.T:.5f}."
+
+
+def _share(value: float) -> str:
+    """Per cent; what is more than nothing is not called 0."""
+    return f"{value:.1%}" if value == 0.0 or value >= 5e-4 else f"{value:.0e}".join(("", " of it"))
 
 
 def _listed(found: Sequence[Instability], other: str) -> Table:
