@@ -13,7 +13,7 @@ from rich import box
 from rich.console import Console
 from rich.table import Table
 
-from compare.crosscheck import CrossCheck
+from compare.both_routes import CrossCheck
 
 FORMATS = ("text", "json", "md", "csv")
 STYLES = {"stable": "bold green", "unstable": "bold red", "undecided": "bold yellow"}

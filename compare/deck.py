@@ -52,6 +52,8 @@ class Cards:
         for field in layout:
             text = line[column : column + field.width].strip()
             try:
+                if not text.isascii():
+                    raise ValueError
                 # FORTRAN reads an empty field as zero
                 numbers.append(float(int(text or "0") if field.kind == "I" else text or "0"))
             except ValueError:

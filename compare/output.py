@@ -8,30 +8,36 @@ from pathlib import Path
 def write_whole(path: Path, content: str | bytes) -> None:
     """Write `content` to `path` through a temporary file beside it.
 
+    A link is followed to its target. What is no regular file, a device or a pipe, is written to
+    straight away.
+
     Raises
     ------
     ValueError
         The file cannot be written; what was there before is untouched.
     """
     data = content.encode() if isinstance(content, str) else content
+    check_writable(path)
     try:
-        if path.is_dir():
-            raise IsADirectoryError(21, "is a directory")
-        handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-    except OSError as error:
-        raise ValueError(f"output = {str(path)!r}: {_reason(error)}") from None
+        path = path.resolve()
+        if path.exists() and not path.is_file():
+            path.write_bytes(data)
+            return
+        handle, name = tempfile.mkstemp(dir=path.parent, prefix=".unfinished-")
+    except (OSError, RuntimeError) as error:
+        raise _refusal(path, error) from None
     try:
         with os.fdopen(handle, "wb") as file:
             file.write(data)
-        # mkstemp makes the file private; give it what a plain open would have
+        # mkstemp makes the file private; give it what it had, or what a plain open would give
         mask = os.umask(0)
         os.umask(mask)
-        os.chmod(name, 0o666 & ~mask)
+        os.chmod(name, path.stat().st_mode & 0o777 if path.exists() else 0o666 & ~mask)
         os.replace(name, path)
     except BaseException as error:
         Path(name).unlink(missing_ok=True)
         if isinstance(error, OSError):
-            raise ValueError(f"output = {str(path)!r}: {_reason(error)}") from None
+            raise _refusal(path, error) from None
         raise
 
 
@@ -41,14 +47,43 @@ def check_writable(path: Path) -> None:
     Raises
     ------
     ValueError
-        `path` is a directory, or its directory does not exist or cannot be written to.
+        `path` is a directory or read-only, its directory does not exist or cannot be written to.
     """
-    if path.is_dir():
-        raise ValueError(f"output = {str(path)!r}: cannot be written (is a directory)")
-    if not os.access(path.parent, os.W_OK | os.X_OK):
-        why = "permission denied" if path.parent.is_dir() else "no such directory"
-        raise ValueError(f"output = {str(path)!r}: cannot be written ({why})")
+    try:
+        target = path.resolve()
+        if target.is_dir():
+            raise ValueError(f"output = {str(path)!r}: cannot be written (is a directory)")
+        if target.exists():
+            # root may write anything: the mode is what the owner wants
+            read_only = target.is_file() and not target.stat().st_mode & 0o222
+            if read_only or not os.access(target, os.W_OK):
+                raise ValueError(f"output = {str(path)!r}: cannot be written (read-only)")
+            if not target.is_file():
+                return
+        if not os.access(target.parent, os.W_OK | os.X_OK):
+            why = "permission denied" if target.parent.is_dir() else "no such directory"
+            raise ValueError(f"output = {str(path)!r}: cannot be written ({why})")
+    except (OSError, RuntimeError) as error:
+        raise _refusal(path, error) from None
 
 
-def _reason(error: OSError) -> str:
-    return f"cannot be written ({(error.strerror or str(error)).lower()})"
+def check_apart(**paths: Path | None) -> None:
+    """Refuse two outputs that are the same file.
+
+    Raises
+    ------
+    ValueError
+        They are.
+    """
+    seen: dict[Path, str] = {}
+    for name, path in paths.items():
+        if path is not None:
+            target = Path(os.path.realpath(path))
+            if target in seen:
+                raise ValueError(f"{name} = {str(path)!r}: is the file of {seen[target]} too")
+            seen[target] = name
+
+
+def _refusal(path: Path, error: Exception) -> ValueError:
+    reason = (getattr(error, "strerror", None) or str(error)).lower()
+    return ValueError(f"output = {str(path)!r}: cannot be written ({reason})")

@@ -6,7 +6,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from compare.crosscheck import compare_routes
+from compare.both_routes import compare_routes
 from compare.deck import constants
 from compare.errata import is_open
 from compare.match import distance

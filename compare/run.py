@@ -9,6 +9,7 @@ from compare.row import Method, Outcome, check
 from compare.tables import TABLES, Row, all_rows
 from compare.workers import MapLike, mapper
 from hill import checks
+from hill.beam_common import MOST_MODES
 
 
 @dataclass(frozen=True)
@@ -106,7 +107,9 @@ def verify(
     chosen = select(tables, rows)
     if method not in ("taylor", "cvodes"):
         raise ValueError(f"method = {method!r}: must be taylor or cvodes")
-    job = partial(check, method=method, modes=checks.count("modes", modes, least=1))
+    job = partial(
+        check, method=method, modes=checks.count("modes", modes, least=1, most=MOST_MODES)
+    )
     outcomes = []
     with mapper(workers, chunk=4) as run:
         for outcome in run(job, chosen):
@@ -120,7 +123,7 @@ def select(tables: Iterable[int], names: Iterable[str] | None) -> tuple[Row, ...
     """Rows by table and name."""
     numbers = tuple(tables)
     for table in numbers:
-        if table not in TABLES:
+        if isinstance(table, bool) or not isinstance(table, int) or table not in TABLES:
             raise ValueError(f"table = {table!r}: the report has Tables 1, 2 and 3")
     found = all_rows(numbers)
     if names is None:

@@ -50,7 +50,7 @@ def read(path: Path) -> Described:
     ValueError
         It cannot be read, or says something that is not understood: one line with file and key.
     """
-    content = _toml(path)
+    content = toml(path)
     try:
         return _described(content, path)
     except ValueError as error:
@@ -81,7 +81,8 @@ def one_of(word: str, known: Sequence[str]) -> str:
     return f"did you mean {near[0]}? It {text}" if near else text
 
 
-def _toml(path: Path) -> dict[str, Any]:
+def toml(path: Path) -> dict[str, Any]:
+    """What a TOML file holds, or one line that says why it cannot be had."""
     try:
         return tomllib.loads(path.read_text(encoding="utf-8"))
     except OSError as error:
@@ -98,8 +99,8 @@ def _described(content: dict[str, Any], path: Path) -> Described:
     kind = content.get("kind")
     if not isinstance(kind, str) or kind not in KINDS:
         raise ValueError(f"kind = {kind!r}: {one_of(str(kind), tuple(KINDS))}")
-    own = _table(content, "system")
-    forcing = _table(content, "forcing")
+    own = table(content, "system")
+    forcing = table(content, "forcing")
     _only(forcing, FORCING, "forcing.")
     axes = content.get("axis", [])
     if not isinstance(axes, list):
@@ -113,11 +114,12 @@ def _described(content: dict[str, Any], path: Path) -> Described:
     )
 
 
-def _table(content: dict[str, Any], name: str) -> dict[str, Any]:
+def table(content: dict[str, Any], name: str, path: Path | None = None) -> dict[str, Any]:
+    """A table of a file's content, empty where it is not there."""
     found = content.get(name, {})
     if not isinstance(found, dict):
-        raise ValueError(f"{name}: must be a table, [{name}]")
-    return found
+        raise ValueError(f"{f'{path}: ' if path else ''}{name}: must be a table, [{name}]")
+    return dict(found)
 
 
 def _only(table: Mapping[str, Any], known: Sequence[str], where: str) -> None:
@@ -165,7 +167,7 @@ def _matrices(own: dict[str, Any], folder: Path) -> MatrixSystem:
     terms: dict[str, Any] = {
         which: {
             name: matrix(f"system.{which}.{name}", value, folder)
-            for name, value in _table(own, which).items()
+            for name, value in table(own, which).items()
         }
         for which in TERMS
     }
@@ -178,7 +180,7 @@ def _matrices(own: dict[str, Any], folder: Path) -> MatrixSystem:
         **given,
         H=[matrix(f"system.H[{s}]", value, folder) for s, value in enumerate(H)],
         omega_L=own.get("omega_L", math.inf),
-        values=_table(own, "values"),
+        values=table(own, "values"),
         frequency_names=names,
         **terms,
     )

@@ -12,8 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import brentq
 
-from hill import HillEquation, SteppedBeam, UniformBeam, checks
-from hill.errors import LongitudinalResonance
+from hill import HillEquation, LongitudinalResonance, SteppedBeam, UniformBeam, checks
 
 Array = NDArray[np.float64]
 Force = Callable[[Array], Array]

@@ -1,13 +1,13 @@
-"""The witness's own matrices of a system, made by other means than the system's own."""
+"""Which systems the witness has matrices of its own for, made by other means than theirs."""
 
 from collections.abc import Callable
 from typing import Any
 
 from floquet.galerkin import galerkin
 from hill import HillEquation, SteppedBeam, UniformBeam
-from hill.system import System
 
 Make = Callable[..., HillEquation]
+"""make(system, Omega, gamma, eta): the equation, its matrices found by the witness's own means."""
 
 _MAKERS: dict[type, Make] = {UniformBeam: galerkin, SteppedBeam: galerkin}
 
@@ -17,17 +17,6 @@ def register(kind: type, make: Make) -> None:
     _MAKERS[kind] = make
 
 
-def has_own_matrices(system: Any) -> bool:
-    """Whether the witness makes its own matrices of the system, or takes the system's."""
-    return type(system) in _MAKERS
-
-
-def equation(
-    system: System, Omega: float, gamma: float, eta: float = 0.0, **more: Any
-) -> HillEquation:
-    """The system's equation with the witness's matrices, or the system's where it has no own."""
-    make = _MAKERS.get(type(system))
-    if make is None:
-        found: HillEquation = system.equation(Omega, gamma, eta, **more)
-        return found
-    return make(system, Omega, gamma, eta, **more)
+def maker(system: Any) -> Make | None:
+    """What makes the witness's own matrices of the system; None where both routes share its own."""
+    return _MAKERS.get(type(system))

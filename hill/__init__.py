@@ -3,13 +3,16 @@
 from hill.beams import SteppedBeam, UniformBeam
 from hill.characteristic import Characteristic, characteristic
 from hill.equation import HillEquation
+from hill.errors import LongitudinalResonance, Refused
 from hill.system import MatrixSystem, Parameter, System
 
 __all__ = [
     "Characteristic",
     "HillEquation",
+    "LongitudinalResonance",
     "MatrixSystem",
     "Parameter",
+    "Refused",
     "SteppedBeam",
     "System",
     "UniformBeam",

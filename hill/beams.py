@@ -12,41 +12,23 @@ from numpy.typing import NDArray
 from scipy.optimize import brentq
 
 from hill import checks, stepped, uniform
+from hill.beam_common import (
+    COMMON,
+    LARGEST_G,
+    MOST_MODES,
+    RESONANCE_ULPS,
+    SCAN,
+    forcing,
+    frequencies,
+    matrix_error,
+    names,
+    refuse_resonance,
+)
 from hill.equation import HillEquation
-from hill.errors import LongitudinalResonance
 from hill.system import Parameter
 
 Float = NDArray[np.floating[Any]]
 Complex = NDArray[np.complexfloating[Any, Any]]
-
-# sin(pi sigma) is known to an ulp of pi sigma; below this share of it, the undamped axial force is
-# resonant as far as rounding of Omega and omega_L can tell.
-RESONANCE_ULPS = 4
-
-_COMMON = (
-    Parameter("T0", dependence="linear"),
-    Parameter("K_theta", dependence="linear"),
-    Parameter("xi_G", 0.0, 1.0),
-    Parameter("omega_L", 0.0),
-)
-
-# Points a unit of Omega/omega_L at which a longitudinal resonance is looked for.
-SCAN = 64
-
-# Rounding of the closed forms, over the largest element: against quadrature they are 21 ulps off at
-# most over 200 beams of up to 8 modes. Near a longitudinal resonance the force adds its own.
-MATRIX_ERROR = 32.0 * 2.0**-52
-
-# Beyond it exp(pi sqrt(g)) overflows; a structure's g is below 1.
-LARGEST_G = 1e4
-
-
-def _frequencies(
-    F: NDArray[np.floating[Any]],
-) -> Float | Complex:
-    roots = np.sqrt(np.linalg.eigvals(F).astype(complex))
-    roots = roots[np.lexsort((roots.imag, roots.real))]
-    return roots if np.any(roots.imag) else roots.real.copy()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -89,13 +71,13 @@ class UniformBeam:
             xi_G=checks.station("xi_G", self.xi_G),
             omega_L=checks.positive("omega_L", self.omega_L, or_infinite=True),
             g=checks.between("g", self.g, 0.0, LARGEST_G),
-            modes=checks.count("modes", self.modes, least=1),
+            modes=checks.count("modes", self.modes, least=1, most=MOST_MODES),
         )
 
     @property
     def parameters(self) -> tuple[Parameter, ...]:
         """What may be varied; `modes` may not."""
-        return (*_COMMON, Parameter("g", 0.0, LARGEST_G))
+        return (*COMMON, Parameter("g", 0.0, LARGEST_G))
 
     @property
     def depends_on_Omega(self) -> bool:
@@ -105,7 +87,7 @@ class UniformBeam:
     @property
     def frequency_names(self) -> tuple[str, ...]:
         """As the report calls them: rotation first, then bending."""
-        return _names(self.modes)
+        return names(self.modes)
 
     def longitudinal_resonances(self, least: float, most: float) -> Float:
         """Omega/omega_L between `least` and `most` where the axial force is infinite (4.4.16)."""
@@ -122,7 +104,7 @@ class UniformBeam:
             Ascending by real part, real; complex where the beam has lost its stability, by
             divergence (a purely imaginary frequency) or by flutter (a conjugate pair).
         """
-        return _frequencies(uniform.steady(self.modes, self.T0, self.K_theta, self.xi_G))
+        return frequencies(uniform.steady(self.modes, self.T0, self.K_theta, self.xi_G))
 
     def equation(
         self, Omega: float, gamma: float, eta: float = 0.0, initial_terms: int = 0
@@ -152,7 +134,7 @@ class UniformBeam:
         ValueError
             A parameter out of range; an undamped longitudinal resonance.
         """
-        Omega, sigma = _forcing(Omega, self.omega_L)
+        Omega, sigma = forcing(Omega, self.omega_L)
         gamma = checks.number("gamma", gamma)
         terms = checks.count("initial_terms", initial_terms, least=0)
         if terms and not math.isfinite(self.omega_L):
@@ -166,7 +148,7 @@ class UniformBeam:
             resonant = sigma >= 0.5 and abs(sigma - round(sigma)) <= RESONANCE_ULPS * math.ulp(
                 sigma
             )
-            _refuse_resonance(resonant, Omega, self.omega_L)
+            refuse_resonance(resonant, Omega, self.omega_L)
         damped = np.sqrt(sigma**2 - 1j * self.g) if self.g else sigma
         beam = (self.modes, self.T0)
         return HillEquation(
@@ -177,7 +159,7 @@ class UniformBeam:
             eta=checks.number("eta", eta),
             H=[uniform.free_vibration(*beam, gamma, sigma, s) for s in range(1, terms + 1)],
             omega_L=self.omega_L,
-            data_error=_matrix_error(np.pi * abs(damped), abs(np.sin(np.pi * damped))),
+            data_error=matrix_error(np.pi * abs(damped), abs(np.sin(np.pi * damped))),
         )
 
 
@@ -227,14 +209,14 @@ class SteppedBeam:
             area_ratio=checks.positive("area_ratio", self.area_ratio),
             inertia_ratio=checks.positive("inertia_ratio", self.inertia_ratio),
             omega_L=checks.positive("omega_L", self.omega_L, or_infinite=True),
-            modes=checks.count("modes", self.modes, least=1),
+            modes=checks.count("modes", self.modes, least=1, most=MOST_MODES),
         )
 
     @property
     def parameters(self) -> tuple[Parameter, ...]:
         """What may be varied; `modes` may not."""
         positive = (Parameter(name, 0.0) for name in ("area_ratio", "inertia_ratio"))
-        return (*_COMMON, Parameter("xi_c", 0.0, 1.0), *positive)
+        return (*COMMON, Parameter("xi_c", 0.0, 1.0), *positive)
 
     @property
     def depends_on_Omega(self) -> bool:
@@ -244,7 +226,7 @@ class SteppedBeam:
     @property
     def frequency_names(self) -> tuple[str, ...]:
         """As the report calls them: rotation first, then bending."""
-        return _names(self.modes)
+        return names(self.modes)
 
     def longitudinal_resonances(self, least: float, most: float) -> Float:
         """Omega/omega_L between `least` and `most` where the axial force is infinite (5.3.13)."""
@@ -262,7 +244,7 @@ class SteppedBeam:
 
     def natural_frequencies(self) -> Float | Complex:
         """omega_(B) and omega_(1..N) under the constant thrust, as for `UniformBeam`."""
-        return _frequencies(self._steady())
+        return frequencies(self._steady())
 
     def equation(
         self, Omega: float, gamma: float, eta: float = 0.0, initial_terms: int = 0
@@ -272,7 +254,7 @@ class SteppedBeam:
         `initial_terms` must be 0: the free longitudinal frequencies of a stepped bar are no
         multiples of one another, so that its vibration has no period.
         """
-        Omega, sigma = _forcing(Omega, self.omega_L)
+        Omega, sigma = forcing(Omega, self.omega_L)
         if checks.count("initial_terms", initial_terms, least=0):
             raise ValueError(
                 f"initial_terms = {initial_terms}: must be 0, "
@@ -281,7 +263,7 @@ class SteppedBeam:
         nu = np.pi * sigma
         inverse_beta = nu * stepped.force_stiffness(nu, self.xi_c, self.area_ratio)
         resonant = nu >= 1.0 and abs(inverse_beta) <= RESONANCE_ULPS * math.ulp(nu)
-        _refuse_resonance(resonant, Omega, self.omega_L)
+        refuse_resonance(resonant, Omega, self.omega_L)
         return HillEquation(
             F=self._steady(),
             G=stepped.reduce(self._mass(), self._thrust(sigma)),
@@ -289,7 +271,7 @@ class SteppedBeam:
             Omega=Omega,
             eta=checks.number("eta", eta),
             omega_L=self.omega_L,
-            data_error=_matrix_error(nu, abs(inverse_beta)),
+            data_error=matrix_error(nu, abs(inverse_beta)),
         )
 
     def _steady(self) -> Float:
@@ -302,26 +284,3 @@ class SteppedBeam:
     def _thrust(self, sigma: float) -> Float:
         step = (self.xi_c, self.area_ratio)
         return stepped.thrust(self.modes, self.T0, self.K_theta, self.xi_G, *step, sigma)
-
-
-def _forcing(Omega: float, omega_L: float) -> tuple[float, float]:
-    """Checked Omega, and sigma = Omega/omega_L of Eq. (4.4.8)."""
-    Omega = checks.positive("Omega", Omega)
-    return Omega, Omega / omega_L
-
-
-def _names(modes: int) -> tuple[str, ...]:
-    return ("B", *(str(n) for n in range(1, modes + 1)))
-
-
-def _matrix_error(nu: float, divisor: float) -> float:
-    """Rounding of the matrices; the force is divided by what vanishes at a resonance."""
-    return min(MATRIX_ERROR * (1.0 + nu / divisor if nu else 1.0), 1.0)
-
-
-def _refuse_resonance(resonant: bool, Omega: float, omega_L: float) -> None:
-    if resonant:
-        raise LongitudinalResonance(
-            f"Omega = {Omega:g} is a longitudinal resonance (omega_L = {omega_L:g}): "
-            "the undamped axial force is infinite there"
-        )

@@ -47,12 +47,14 @@ def station(name: str, value: Any) -> float:
     return between(name, value, 0.0, 1.0)
 
 
-def count(name: str, value: Any, *, least: int) -> int:
-    """Return `value` as an int >= `least`."""
+def count(name: str, value: Any, *, least: int, most: int | None = None) -> int:
+    """Return `value` as an int >= `least`, and <= `most` if there is one."""
     if isinstance(value, (bool, np.bool_)) or not isinstance(value, Integral):
         raise ValueError(f"{name} = {value!r}: must be a whole number")
     if value < least:
         raise ValueError(f"{name} = {value}: must be at least {least}")
+    if most is not None and int(value) > most:
+        raise ValueError(f"{name} = {value}: must be at most {most:,}")
     return int(value)
 
 
@@ -60,10 +62,14 @@ def square(name: str, value: ArrayLike, *, n: int | None = None) -> NDArray[np.f
     """Return `value` as a read-only finite n-by-n float array."""
     try:
         raw = np.asarray(value)
+        if np.ma.is_masked(value):
+            raise ValueError(f"{name}: has masked elements; every one must be a number")
         if np.iscomplexobj(raw) or raw.dtype == bool:
             raise TypeError
         matrix = np.array(raw, dtype=np.float64)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError) as error:
+        if "masked" in str(error):
+            raise
         raise ValueError(f"{name}: must be a matrix of real numbers") from None
     if matrix.ndim != 2 or matrix.shape[0] != matrix.shape[1] or matrix.size == 0:
         raise ValueError(f"{name} has shape {matrix.shape}: must be square and not empty")

@@ -1,5 +1,6 @@
 """The chart itself: T over two or more parameters, with its error, from an interpolated P(z)."""
 
+import math
 import time
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
@@ -11,7 +12,7 @@ from numpy.typing import NDArray
 
 from compare.charts import surface
 from compare.charts.nodes import ROUTES, Nodes, solved
-from compare.charts.parameters import Axis, Beam, Family
+from compare.charts.parameters import MOST_POINTS, Axis, Beam, Family
 from compare.charts.result import Chart, Omega_and_eta, from_smooth, ln_R, on_grid
 from compare.workers import MapLike, mapper
 from hill import checks
@@ -26,6 +27,8 @@ FINE = 2000
 
 # The charts' own smallest useful tolerance: P itself is known to about 1e-13.
 LEAST_TOLERANCE = 1e-13
+# Beyond, T is not known to a digit anywhere.
+MOST_TOLERANCE = 1e-2
 
 
 def chart(
@@ -74,12 +77,14 @@ def chart(
     drawn = tuple(a if isinstance(a, Axis) else Axis(*a) for a in axes)
     if not drawn:
         raise ValueError("axes: must name at least one parameter")
+    points = math.prod(axis.count for axis in drawn)
+    if points > MOST_POINTS:
+        raise ValueError(f"points = {points:,}: must be at most {MOST_POINTS:,} in all")
     family = Family(beam, dict(forcing or {}))
     family.check(drawn)
     if route not in ROUTES:
         raise ValueError(f"route = {route!r}: must be one of {', '.join(ROUTES)}")
-    if checks.number("tolerance", tolerance) < LEAST_TOLERANCE:
-        raise ValueError(f"tolerance = {tolerance:g}: must be at least {LEAST_TOLERANCE:g}")
+    checks.between("tolerance", tolerance, LEAST_TOLERANCE, MOST_TOLERANCE)
 
     low, high = np.array([axis.span for axis in drawn]).T
     with mapper(workers) as run:

@@ -32,6 +32,8 @@ STYLE: Any = {
 }
 
 
+NO_PICTURES = 'pictures need matplotlib: pip install "floquet-crosscheck[plot]"'
+
 QUANTITIES = ("T", "disagreement")
 
 LEAST = 1e-17
@@ -66,9 +68,7 @@ def picture(
         from matplotlib.backends.backend_agg import FigureCanvasAgg
         from matplotlib.figure import Figure
     except ImportError:
-        raise ValueError(
-            'pictures need matplotlib: pip install "floquet-crosscheck[plot]"'
-        ) from None
+        raise ValueError(NO_PICTURES) from None
     x, y = chart.axes
     with matplotlib.rc_context(STYLE):
         figure = Figure(figsize=(7.2, 4.6), layout="constrained")

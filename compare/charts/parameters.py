@@ -10,13 +10,27 @@ from numpy.typing import NDArray
 
 from floquet.galerkin import galerkin
 from hill import HillEquation, SteppedBeam, UniformBeam, checks
+from hill.errors import LongitudinalResonance
 
 Float = NDArray[np.floating[Any]]
 Beam = UniformBeam | SteppedBeam
 
+MOST_POINTS = 50_000_000
+"""Of a whole chart: T, P and the verdict of a point take some 100 bytes together."""
+
 FORCING = ("Omega", "gamma", "eta")
 WHOLE = ("modes",)
 MARGIN = 1.1
+
+CHARTED = (1e-3, 1e6)
+"""Omega, over omega_1, that a chart may have; a beam moves at about 1."""
+
+MOST_DECAY = 200.0
+"""eta/Omega: exp(-pi eta/Omega) stays above 1e-273."""
+
+MOST_RADIANS = 3000.0
+"""Of the fastest motion in a period; one evaluation then takes a tenth of a second, and a growth as
+fast as that leaves the floats four times over."""
 
 NEAR = 0.25
 """Widths of a box: a series over it whose nearest pole is farther than this converges by 2.6 a
@@ -41,7 +55,10 @@ class Axis:
     def __post_init__(self) -> None:
         low = checks.number(f"{self.name} from", self.low)
         high = checks.number(f"{self.name} to", self.high)
-        checks.count(f"points of {self.name}", self.count, least=2)
+        if checks.count(f"points of {self.name}", self.count, least=2) > MOST_POINTS:
+            raise ValueError(
+                f"points of {self.name} = {self.count}: must be at most {MOST_POINTS:,}"
+            )
         if not low < high:
             raise ValueError(f"{self.name} from {low:g} to {high:g}: must ascend")
         if self.name == "Omega" and low <= 0.0:
@@ -97,15 +114,41 @@ class Family:
                 raise ValueError(f"axis = {name!r}: must be one of {', '.join(known)}")
             if names.count(name) > 1:
                 raise ValueError(f"axis = {name!r}: is there twice")
-        for name in self.forcing:
+        for name, value in self.forcing.items():
             if name not in FORCING:
                 raise ValueError(f"{name}: must be one of {', '.join(FORCING)}")
+            checks.number(name, value)
+            if name in names:
+                raise ValueError(f"{name} = {value:g}: is an axis too; leave one of them out")
         missing = {"Omega", "gamma"} - set(names) - set(self.forcing)
         if missing:
             raise ValueError(f"{min(missing)}: has no value; fix it, or make it an axis")
         # the corners find what the ranges would run into later
-        for end in ("low", "high"):
-            self.at({axis.name: getattr(axis, end) for axis in axes})
+        for corner in product(*((axis.low, axis.high) for axis in axes)):
+            self._check_corner(dict(zip(names, corner, strict=True)))
+
+    def _check_corner(self, varied: Mapping[str, float]) -> None:
+        """Refuse what would take for ever, or leave the floats, far into the work."""
+        beam, forcing = self.at(varied)
+        where = ", ".join(f"{k} = {v:g}" for k, v in (dict(varied) or forcing).items())
+        Omega, gamma, eta = (forcing[name] for name in ("Omega", "gamma", "eta"))
+        checks.between("Omega", Omega, *CHARTED)
+        if abs(eta) > MOST_DECAY * Omega:
+            raise ValueError(
+                f"{where}: eta/Omega = {eta / Omega:.3g} must be at most {MOST_DECAY:g}, or a "
+                "period's decay leaves the floats"
+            )
+        try:
+            model = beam.equation(Omega, gamma, eta)
+        except LongitudinalResonance:  # the corner's own misfortune
+            return
+        fastest = np.sqrt(np.linalg.norm(model.F, 2) + abs(gamma) * np.linalg.norm(model.G, 2))
+        radians = 2.0 * np.pi * float(fastest) / Omega
+        if not radians <= MOST_RADIANS:
+            raise ValueError(
+                f"{where}: the motion turns by {radians:.1e} radians a period, and "
+                f"{MOST_RADIANS:g} at most can be charted"
+            )
 
     def at(self, varied: Mapping[str, float]) -> tuple[Beam, dict[str, float]]:
         """The beam and the forcing at a point."""

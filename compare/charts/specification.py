@@ -1,11 +1,11 @@
 """What to chart, from a TOML file or from words: beam, forcing, axes."""
 
-import tomllib
 from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import Any
 
-from compare.charts.parameters import Axis, Beam
+from compare.charts.parameters import FORCING, Axis, Beam
+from compare.system_file import one_of, table, toml
 from compare.tables import STEPPED, UNIFORM
 from hill import SteppedBeam, UniformBeam
 
@@ -47,17 +47,24 @@ def from_words(
         Words that are not of this form.
     """
     values = dict(base.values) if base else {}
+    kind = base.kind if base else kind
+    known = [*(f.name for f in fields(BEAMS[kind])), *FORCING]
     for word in settings:
         name, equals, text = word.partition("=")
         if not equals or not name:
             raise ValueError(f"--set {word}: must be NAME=VALUE")
+        if name not in known:
+            raise ValueError(f"--set {word}: {one_of(name, known)}")
         values[name] = _value(f"--set {word}", name, text)
     typed = tuple(
         Axis(name, _number(name, low), _number(name, high), _whole(name, count))
         for name, low, high, count in axes
     )
     kept = base.axes if base and not typed else typed
-    return Specification(base.kind if base else kind, values, kept)
+    for axis in kept:
+        if any(word.startswith(f"{axis.name}=") for word in settings):
+            raise ValueError(f"--set {axis.name}: is an axis; leave one of them out")
+    return Specification(kind, values, kept)
 
 
 def from_file(path: Path) -> Specification:
@@ -68,26 +75,35 @@ def from_file(path: Path) -> Specification:
     ValueError
         The file cannot be read, or says something else.
     """
-    try:
-        content = tomllib.loads(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        reason = (error.strerror or str(error)).lower()
-        raise ValueError(f"{path}: cannot be read ({reason})") from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise ValueError(f"{path}: is not TOML ({error})") from None
-    beam, forcing = dict(content.pop("beam", {})), dict(content.pop("forcing", {}))
-    axes = content.pop("axis", [])
-    if content:
-        raise ValueError(f"{path}: {min(content)!r} must be one of beam, forcing, axis")
-    kind = beam.pop("kind", "uniform")
-    if kind not in BEAMS:
+    content = toml(path)
+    if "kind" in content or "system" in content:
+        raise ValueError(f"{path}: has [system]; a chart's file has [beam]")
+    own = table(content, "beam", path)
+    forcing = table(content, "forcing", path)
+    axes = content.get("axis", [])
+    for name in content:
+        if name not in ("beam", "forcing", "axis"):
+            raise ValueError(f"{path}: {name!r} {one_of(name, ('beam', 'forcing', 'axis'))}")
+    kind = own.pop("kind", "uniform")
+    if not isinstance(kind, str) or kind not in BEAMS:
         raise ValueError(f"{path}: kind = {kind!r} must be one of {', '.join(BEAMS)}")
+    known = [f.name for f in fields(BEAMS[kind])]
+    for where, given, names in (("beam", own, known), ("forcing", forcing, FORCING)):
+        for name, value in given.items():
+            if name not in names:
+                raise ValueError(f"{path}: {where}.{name}: {one_of(name, names)}")
+            if isinstance(value, bool) or not isinstance(value, int | float):
+                raise ValueError(f"{path}: {where}.{name} = {value!r}: must be a number")
+    if not isinstance(axes, list):
+        raise ValueError(f"{path}: axis: must be an array of tables, [[axis]]")
     found = []
     for axis in axes:
         if not isinstance(axis, dict) or set(axis) != {"name", "low", "high", "count"}:
             raise ValueError(f"{path}: each axis must have name, low, high and count")
+        if not isinstance(axis["name"], str):
+            raise ValueError(f"{path}: axis.name = {axis['name']!r}: must be a word")
         found.append(Axis(**axis))
-    return Specification(kind, beam | forcing, tuple(found))
+    return Specification(kind, own | forcing, tuple(found))
 
 
 def _value(where: str, name: str, text: str) -> Any:
@@ -105,6 +121,9 @@ def _number(name: str, text: str) -> float:
 
 def _whole(name: str, text: str) -> int:
     try:
-        return int(text)
-    except ValueError:
+        number = float(text)
+        if number != int(number):
+            raise ValueError
+        return int(number)
+    except (ValueError, OverflowError):
         raise ValueError(f"{name}: {text!r} is not a whole number") from None

@@ -3,6 +3,7 @@
 import argparse
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +17,7 @@ from compare.boundaries import Tongue
 from compare.charts import files, specification
 from compare.charts.compute import chart
 from compare.charts.curves import Curve, curves
-from compare.charts.draw import QUANTITIES, picture
+from compare.charts.draw import NO_PICTURES, QUANTITIES, picture
 from compare.charts.instabilities import Instability, instabilities
 from compare.charts.nodes import ROUTES
 from compare.charts.result import Chart
@@ -24,7 +25,7 @@ from compare.charts.tongues import ORDERS, axes_of, tongues
 from compare.charts.unnamed import Region, unnamed
 from compare.cluster import connect
 from compare.commands.terminal import terminal
-from compare.output import check_writable, write_whole
+from compare.output import check_apart, check_writable, write_whole
 from hill import checks
 
 SUMMARY = "chart the characteristic argument T over two parameters or more"
@@ -66,7 +67,7 @@ SUFFIXES = (*PICTURES, ".npz", ".csv")
 def configure(p: argparse.ArgumentParser) -> None:
     """Options of the command."""
     p.add_argument("file", nargs="?", type=Path, metavar="FILE.toml", help="what to chart")
-    p.add_argument("--beam", choices=tuple(specification.BEAMS), default="uniform")
+    p.add_argument("--beam", choices=tuple(specification.BEAMS))
     p.add_argument(
         "--set", action="append", default=[], metavar="NAME=VALUE", help="a parameter; repeatable"
     )
@@ -103,10 +104,13 @@ def configure(p: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Run it; return the exit status."""
+    if options.file and options.beam:
+        raise ValueError(f"--beam {options.beam}: {options.file} says which beam; leave it out")
     base = specification.from_file(options.file) if options.file else None
     axes = [axis for axis in (options.x, options.y, options.also) if axis]
-    wanted = specification.from_words(options.beam, options.set, axes, base)
+    wanted = specification.from_words(options.beam or "uniform", options.set, axes, base)
     _check_files(options)
+    _check_wanted(options, [axis.name for axis in wanted.axes])
     with _bar() as bar:
         task = bar.add_task("nodes", total=None)
         with _workers(options) as workers:
@@ -158,6 +162,23 @@ def _check_files(options: argparse.Namespace) -> None:
             if allowed and path.suffix not in allowed:
                 raise ValueError(f"{name} = {str(path)!r}: must end in {', '.join(allowed)}")
             check_writable(path)
+    check_apart(output=options.output, tongues=options.tongues, resume=options.resume)
+
+
+def _check_wanted(options: argparse.Namespace, axes: list[str]) -> None:
+    """Refuse pictures and tongues that there will be none of, before anything is computed."""
+    checks.count("order", options.order, least=1)
+    drawn = options.output is not None and options.output.suffix in PICTURES
+    if options.show != "T" and not drawn:
+        raise ValueError(f"--show {options.show}: needs a picture, --output NAME.png or .svg")
+    if options.show == "disagreement" and options.route != "both":
+        raise ValueError(f"--show disagreement: needs --route both, not {options.route}")
+    if drawn and len(axes) != 2:
+        raise ValueError(f"output = {str(options.output)!r}: a picture needs two axes")
+    if drawn and find_spec("matplotlib") is None:
+        raise ValueError(NO_PICTURES)
+    if options.tongues is not None and (len(axes) != 2 or "Omega" not in axes):
+        raise ValueError(f"--tongues {options.tongues}: needs a chart of Omega and one other")
 
 
 @contextmanager

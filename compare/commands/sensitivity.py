@@ -44,7 +44,7 @@ def configure(p: argparse.ArgumentParser) -> None:
     p.add_argument(
         "--set", action="append", default=[], metavar="NAME=VALUE", help="a parameter; repeatable"
     )
-    p.add_argument("--format", choices=FORMATS, default="text")
+    p.add_argument("--format", choices=FORMATS, help="text, or what --output's suffix says (.json)")
     p.add_argument(
         "--output", type=Path, metavar="FILE", help="write there instead of the terminal"
     )
@@ -61,7 +61,8 @@ def run(options: argparse.Namespace) -> int:
         forcing["Omega"] = _resonant(beam)
     Family(beam, forcing).check(())
     found = beam_sensitivities(beam, **forcing)
-    if options.format == "json":
+    suffix = options.output.suffix[1:] if options.output else ""
+    if (options.format or suffix) == "json":
         _write(json.dumps(content(options.beam, found), indent=2) + "\n", options.output)
     elif options.output is None:
         show(options.beam, found, terminal())

@@ -8,8 +8,8 @@ from pathlib import Path
 from rich.console import Console
 
 from compare import system_file
+from compare.both_routes import crosscheck
 from compare.commands.terminal import terminal
-from compare.crosscheck import crosscheck
 from compare.crosscheck_text import FORMATS, WRITERS, Subject, text
 from compare.output import check_writable, write_whole
 from hill import checks

@@ -10,10 +10,18 @@ WIDE = 140
 """Columns where there is no terminal to ask."""
 
 
+class _Output(Console):
+    """A console that leaves a reader that went away to the command, and so its exit status."""
+
+    def on_broken_pipe(self) -> None:
+        """Tell the command."""
+        raise BrokenPipeError
+
+
 def terminal() -> Console:
     """The standard output: as wide as it is, or wide enough for everything."""
-    console = Console()
-    return console if console.is_terminal else Console(width=WIDE)
+    console = _Output()
+    return console if console.is_terminal else _Output(width=WIDE)
 
 
 @contextmanager

@@ -6,8 +6,7 @@ from typing import Any, Literal
 import numpy as np
 
 from floquet import Monodromy, monodromy
-from floquet.witness import equation as of_witness
-from floquet.witness import has_own_matrices
+from floquet.witness import maker
 from hill import Characteristic, HillEquation, characteristic
 from hill.stability import Verdict
 
@@ -103,7 +102,8 @@ def crosscheck(
         if value is None:
             raise ValueError(f"{name}: has no value; a system needs a forcing")
     own = what.equation(Omega, gamma, eta)
-    other = of_witness(what, Omega, gamma, eta) if has_own_matrices(what) else own  # type: ignore[arg-type]
+    make = maker(what)
+    other = make(what, Omega, gamma, eta) if make else own
     return compare_routes(own, other, method=method)
 
 
