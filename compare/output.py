@@ -49,6 +49,8 @@ def check_writable(path: Path) -> None:
     ValueError
         `path` is a directory or read-only, its directory does not exist or cannot be written to.
     """
+    if "\0" in str(path):
+        raise ValueError(f"output = {str(path)!r}: cannot be written (no such name)")
     try:
         target = path.resolve()
         if target.is_dir():

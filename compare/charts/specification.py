@@ -110,6 +110,8 @@ def _value(where: str, name: str, text: str) -> Any:
     if name == "modes":
         return _whole(name, text)
     try:
+        if not text.isascii():
+            raise ValueError
         return float(text)
     except ValueError:
         raise ValueError(f"{where}: {text!r} is not a number") from None
