@@ -29,9 +29,12 @@ def main(argv: Sequence[str] | None = None) -> int:
     if sys.stdout is None:
         _say(program, "standard output is closed")
         return 2
+    handlers = {number: signal.getsignal(number) for number in (signal.SIGTERM, signal.SIGINT)}
     # a signal that ends the process ends it as an exception: cursor, files, workers are mended
     with suppress(ValueError):  # not the main thread
         signal.signal(signal.SIGTERM, _terminate)
+        # libraries swallow a Ctrl-C that meets them while they are imported
+        signal.signal(signal.SIGINT, lambda *_: _leave(program))
     try:
         status = _run(words)
         sys.stdout.flush()
@@ -47,6 +50,10 @@ def main(argv: Sequence[str] | None = None) -> int:
         _discard_output()
         _say(program, f"standard output: cannot be written ({(error.strerror or '').lower()})")
         return 2
+    finally:
+        with suppress(ValueError, TypeError):
+            for number, handler in handlers.items():
+                signal.signal(number, handler)
 
 
 def _run(words: list[str]) -> int:
@@ -68,6 +75,8 @@ def _run(words: list[str]) -> int:
     options = _parser(command, program, name).parse_args(words)
     from compare.workers import WorkersError
 
+    with suppress(ValueError):
+        signal.signal(signal.SIGINT, signal.default_int_handler)
     try:
         return int(command.run(options))
     except (ValueError, OverflowError, MemoryError, WorkersError) as error:
@@ -109,6 +118,12 @@ def _version() -> str:
 
 def _terminate(_signal: int, _frame: Any) -> None:
     sys.exit(ENDED)
+
+
+def _leave(program: str) -> None:
+    """End at once; nothing has been begun."""
+    _say(program, "interrupted")
+    os._exit(INTERRUPTED)
 
 
 def _say(program: str, what: str) -> None:

@@ -4,10 +4,13 @@ import ctypes
 import hashlib
 import os
 import shutil
+import signal
+import stat
 import subprocess
 import tempfile
 from collections.abc import Callable
-from functools import cache, lru_cache
+from contextlib import suppress
+from functools import cache
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
@@ -15,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from floquet.charpoly import BY_MINORS, characteristic_polynomials
-from floquet.march import ORDER, POWERS, TOLERANCE, Found, March, Points
+from floquet.march import ORDER, POWERS, TOLERANCE, Found, March, Points, by_numpy
 from floquet.propagate import MOST_STEPS
 from floquet.steps import MOST_EXPONENT, RADII
 
@@ -30,6 +33,16 @@ NEAREST_CACHE = 40_000
 BYTES = 8 * 8
 """Of one number for eight points side by side."""
 
+# Seconds: a compiler says its version in a few hundredths, and builds 40 coordinates in ten.
+ASKED, BUILT = 5.0, 60.0
+
+# Difference from numpy, of P, above which a build is not used.
+TRIED = 1e-10
+
+# Builds kept in mind; each is some kilobytes.
+MOST_KNOWN = 64
+_KNOWN: dict[tuple[str, int, int, int], March | None] = {}
+
 # The numbers of a point sit on the compiler's stack, 3 (2n)^2 of them.
 MOST_COORDINATES = 40
 
@@ -40,21 +53,61 @@ def compiler() -> str | None:
     return next(filter(None, map(shutil.which, [*named[:1], *COMPILERS])), None)
 
 
-@lru_cache(maxsize=64)
 def march(n: int, terms: int) -> March | None:
     """The compiled march for n coordinates and `terms` cosines; None where it cannot be had.
 
     Built once and kept in the user's cache directory (``$XDG_CACHE_HOME`` or ``~/.cache``), under
-    a name made of source, compiler and options; where that cannot be written, for this process.
+    a name made of source, compiler and options; where that cannot be written, or is not the user's
+    alone, for this process. A compiler that fails is asked again when it has changed.
     """
     command = compiler()
     if command is None or n > MOST_COORDINATES:
         return None
-    try:
-        library = ctypes.CDLL(str(_built(command, n, terms)))
-    except (OSError, subprocess.SubprocessError):
-        return None
-    return _wrapped(library.march)
+    identity = (command, os.stat(command).st_mtime_ns, n, terms)
+    if identity not in _KNOWN:
+        if len(_KNOWN) >= MOST_KNOWN:
+            _KNOWN.clear()
+        try:
+            _KNOWN[identity] = _tried(_wrapped(_loaded(_built(command, n, terms))), n, terms)
+        except (OSError, subprocess.SubprocessError, AttributeError, ValueError):
+            _KNOWN[identity] = None
+    return _KNOWN[identity]
+
+
+def _tried(found: March, n: int, terms: int) -> March:
+    """The march itself, once it has computed something known.
+
+    Raises
+    ------
+    ValueError
+        It does not do as numpy does.
+    """
+    rng = np.random.default_rng(n)
+    matrices = rng.standard_normal((1 + terms, n, n)) / n
+    weights = np.vstack([np.ones(3), np.full((terms, 3), 0.1)]) * [0.5, 0.7, 0.9]
+    points = Points(matrices, weights, 0.01 * np.ones(3), tuple(range(1, 1 + terms)))
+    mine, other = by_numpy(points), found(points)
+    apart = np.max(np.abs(mine.P - other.P), axis=1) / np.max(np.abs(mine.P), axis=1)
+    # both are good to some ulps of P: 1e-14 at 40 coordinates
+    if not np.all(apart <= TRIED):
+        raise ValueError("the compiled march computes something else")
+    return found
+
+
+def _loaded(library: Path) -> Any:
+    """The function of a library whose content is what was written down when it was built.
+
+    A truncated library would end the process as it is mapped, a planted one do what it likes.
+    """
+    written = library.with_suffix(".sha256")
+    if not written.exists() or written.read_text(encoding="ascii") != _digest(library):
+        library.unlink(missing_ok=True)
+        raise OSError("not what was built")
+    return ctypes.CDLL(str(library)).march
+
+
+def _digest(library: Path) -> str:
+    return hashlib.sha256(library.read_bytes()).hexdigest()
 
 
 def _built(command: str, n: int, terms: int) -> Path:
@@ -64,26 +117,49 @@ def _built(command: str, n: int, terms: int) -> Path:
     sizes |= {"COLUMNS": columns, "BLOCK": block}
     sizes |= {"RADII": len(RADII), "MOST_EXPONENT": int(MOST_EXPONENT)}
     options = [f"-D{name}={value}" for name, value in sizes.items()]
-    version = subprocess.run([command, "--version"], capture_output=True, check=True, timeout=20)
-    key = hashlib.sha256(repr((source, command, version.stdout, options, FLAGS, _cpu())).encode())
+    version = _run([command, "--version"], b"", ASKED)
+    key = hashlib.sha256(repr((source, command, version, options, FLAGS, _cpu())).encode())
     folder = _folder()
     target = folder / f"march-{n}-{terms}-{key.hexdigest()[:24]}.so"
-    if not target.exists():
+    written = target.with_suffix(".sha256")
+    sound = target.is_file() and written.is_file() and _is_own(target)
+    if not (sound and written.read_text(encoding="ascii") == _digest(target)):
         # a name of its own, then one rename: processes may build the same at the same time
-        handle, unfinished = tempfile.mkstemp(dir=folder, suffix=".so")
+        handle, name = tempfile.mkstemp(dir=folder, suffix=".so")
         os.close(handle)
+        unfinished = Path(name)
         try:
-            subprocess.run(
-                [command, "-x", "c", "-", "-o", unfinished, *options, *FLAGS],
-                input=source,
-                capture_output=True,
-                check=True,
-                timeout=120,
-            )
+            _run([command, "-x", "c", "-", "-o", name, *options, *FLAGS], source, BUILT)
+            unfinished.with_suffix(".sha256").write_text(_digest(unfinished), encoding="ascii")
+            os.replace(unfinished.with_suffix(".sha256"), written)
             os.replace(unfinished, target)
         finally:
-            Path(unfinished).unlink(missing_ok=True)
+            unfinished.unlink(missing_ok=True)
+            unfinished.with_suffix(".sha256").unlink(missing_ok=True)
     return target
+
+
+def _run(words: list[str], given: bytes, seconds: float) -> bytes:
+    """What a command prints; if it takes too long, it and all that it started are ended."""
+    process = subprocess.Popen(
+        words,
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        start_new_session=True,
+    )
+    try:
+        printed, _ = process.communicate(given, timeout=seconds)
+    except BaseException:
+        if hasattr(os, "killpg"):
+            with suppress(ProcessLookupError):
+                os.killpg(process.pid, signal.SIGKILL)
+        process.kill()
+        process.communicate()
+        raise
+    if process.returncode:
+        raise subprocess.CalledProcessError(process.returncode, words[0])
+    return printed
 
 
 def _blocks(n: int) -> tuple[int, int]:
@@ -102,7 +178,17 @@ def _folder() -> Path:
         folder.mkdir(mode=0o700, parents=True, exist_ok=True)
     except (OSError, RuntimeError):  # read-only, or no home at all
         return Path(_while_running().name)
-    return folder if os.access(folder, os.W_OK) else Path(_while_running().name)
+    own = os.access(folder, os.W_OK) and _is_own(folder)
+    return folder if own else Path(_while_running().name)
+
+
+def _is_own(path: Path) -> bool:
+    """Whether a file or folder is the user's own, and nobody else can write to it."""
+    if not hasattr(os, "getuid"):  # no such notion here
+        return True
+    there = path.lstat()
+    mode = stat.S_ISDIR(there.st_mode) or stat.S_ISREG(there.st_mode)
+    return mode and there.st_uid == os.getuid() and not there.st_mode & 0o022
 
 
 @cache

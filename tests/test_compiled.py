@@ -1,0 +1,152 @@
+"""The compiled march is the user's own, is what was built, and costs nothing but speed."""
+
+import os
+import shutil
+import stat
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from floquet import compiled
+from floquet.march import Points, by_numpy
+
+pytestmark = pytest.mark.skipif(
+    compiled.compiler() is None or os.name != "posix", reason="no C compiler here, or no POSIX"
+)
+
+
+@pytest.fixture(autouse=True)
+def own_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    compiled._KNOWN.clear()
+    yield tmp_path / "cache" / "floquet-crosscheck"
+    compiled._KNOWN.clear()
+
+
+def library(folder: Path) -> Path:
+    (found,) = folder.glob("march-*.so")
+    return found
+
+
+def works() -> bool:
+    march = compiled.march(2, 1)
+    if march is None:
+        return False
+    points = Points(np.array([np.eye(2), np.eye(2)]), np.full((2, 1), 0.1), np.zeros(1), (1,))
+    return bool(np.allclose(march(points).P, by_numpy(points).P, rtol=0, atol=1e-13))
+
+
+def fake(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, script: str) -> None:
+    """A compiler of one's own."""
+    path = tmp_path / "fakecc"
+    path.write_text(f"#!/bin/sh\n{script}\n")
+    path.chmod(0o755)
+    monkeypatch.setenv("CC", str(path))
+
+
+def test_it_is_kept_and_belongs_to_the_user(own_cache: Path) -> None:
+    assert works()
+    assert stat.S_IMODE(own_cache.stat().st_mode) == 0o700
+    first = library(own_cache).stat().st_mtime_ns
+    compiled._KNOWN.clear()
+    assert works()
+    assert library(own_cache).stat().st_mtime_ns == first
+
+
+@pytest.mark.parametrize("content", [b"", b"\x7fELF", None], ids=["empty", "ELF", "truncated"])
+def test_a_spoilt_library_is_built_again(own_cache: Path, content: bytes | None) -> None:
+    assert works()
+    path = library(own_cache)
+    # in its place, not in it: it is mapped here
+    other = path.with_suffix(".other")
+    other.write_bytes(path.read_bytes()[:4000] if content is None else content)
+    other.replace(path)
+    compiled._KNOWN.clear()
+    assert works()
+    assert path.stat().st_size > 8000
+
+
+def test_a_planted_library_is_not_loaded(own_cache: Path, tmp_path: Path) -> None:
+    """It would say so in a file as it is loaded."""
+    assert works()
+    path, told = library(own_cache), tmp_path / "loaded"
+    source = tmp_path / "planted.c"
+    source.write_text(
+        "#include <stdio.h>\n__attribute__((constructor)) static void f(void)"
+        f'{{ fclose(fopen("{told}", "w")); }}\nint march(void) {{ return 0; }}\n'
+    )
+    os.system(f"{compiled.compiler()} -shared -fPIC -o {path} {source}")
+    compiled._KNOWN.clear()
+    assert works()
+    assert not told.exists()
+
+
+def test_a_folder_that_others_can_write_to_is_not_used(own_cache: Path) -> None:
+    own_cache.mkdir(parents=True)
+    own_cache.chmod(0o777)
+    assert works()
+    assert list(own_cache.iterdir()) == []
+
+
+def test_a_folder_that_is_a_link_is_not_used(own_cache: Path, tmp_path: Path) -> None:
+    (tmp_path / "elsewhere").mkdir()
+    own_cache.parent.mkdir(parents=True)
+    own_cache.symlink_to(tmp_path / "elsewhere")
+    assert works()
+    assert list((tmp_path / "elsewhere").iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    "script",
+    [
+        "exit 1",
+        "exit 0",
+        'for a; do case "$a" in *.so) echo rubbish > "$a";; esac; done',
+        "kill -9 $$",
+    ],
+    ids=["fails", "does nothing", "writes rubbish", "dies"],
+)
+def test_a_poor_compiler_costs_speed_alone(
+    script: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    fake(tmp_path, monkeypatch, script)
+    assert compiled.march(2, 1) is None
+    # it is not held against another one
+    monkeypatch.delenv("CC")
+    assert works()
+
+
+def test_a_compiler_that_lies_about_the_result(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    real = shutil.which("cc") or shutil.which("gcc") or compiled.compiler()
+    fake(tmp_path, monkeypatch, f'exec {real} "$@" -D__lying -Dcos=sin')
+    assert compiled.march(2, 1) is None
+
+
+def test_a_library_without_the_function(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    real = shutil.which("cc") or shutil.which("gcc") or compiled.compiler()
+    fake(tmp_path, monkeypatch, f'exec {real} "$@" -Dmarch=other')
+    assert compiled.march(2, 1) is None
+
+
+def test_a_compiler_that_hangs_is_ended_with_its_children(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    fake(tmp_path, monkeypatch, f"sleep 300 & echo $! > {tmp_path}/child; sleep 300")
+    monkeypatch.setattr(compiled, "ASKED", 1.0)
+    started = time.monotonic()
+    assert compiled.march(2, 1) is None
+    assert time.monotonic() - started < 20.0
+    child = int((tmp_path / "child").read_text())
+    for _ in range(50):
+        # a zombie waits for whoever adopts it
+        status = Path(f"/proc/{child}/stat")
+        if not status.exists() or status.read_text().split()[2] == "Z":
+            break
+        time.sleep(0.1)
+    else:
+        pytest.fail("the compiler's child is still running")
