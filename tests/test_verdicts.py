@@ -145,6 +145,27 @@ def test_discs_from_a_polynomial_hold_its_roots() -> None:
     assert from_polynomial(z[0], p, errors).radius.max() < 1e-5
 
 
+def test_what_a_root_is_off_is_in_its_radius() -> None:
+    """The roots handed over are 1e-6 off; nothing but the polynomial says so."""
+    exact = np.array([0.9, 0.3, -0.4])
+    p = np.poly(exact)[None]
+    nothing = np.zeros_like(p)
+    off = (exact + [1e-6, -1e-6, 1e-6])[None].astype(complex)
+    assert np.all(root_radii(p, nothing, off)[0] >= 1e-6)
+    assert np.all(from_polynomial(off[0], p[0], nothing[0]).radius >= 1e-6)
+
+
+@judges
+def test_two_real_roots_may_be_a_pair(judge_of: Any) -> None:
+    """Computed real and apart, but an error of P away from z = .3 +- 1e-4 i."""
+    z = np.array([0.3 + 1e-6, 0.3 - 1e-6])
+    found = judge_of(np.poly(z), 1e-8, 1.0, 0.0)
+    assert found.verdict == "undecided"
+    pair = judge_of(np.real(np.poly([0.3 + 1e-4j, 0.3 - 1e-4j])), 0.0, 1.0, 0.0).T
+    assert pair > 3e-5
+    assert found.T + found.T_error >= pair
+
+
 @both
 @pytest.mark.parametrize("name", SPECIAL)
 def test_a_number_is_a_number(name: str, route: str) -> None:
