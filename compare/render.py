@@ -12,7 +12,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from compare.row import Outcome, Route
+from compare.row import TERMS, Outcome, Route
 from compare.run import Report
 
 SHOWN = ("all", "differs", "flips", "fail")
@@ -176,6 +176,8 @@ def as_dict(outcome: Outcome) -> dict[str, Any]:
     }
     if row.initial_conditions is not None:
         record["initial_conditions"] = row.initial_conditions
+        # as many as the report keeps: a truncation like any other, see the errata
+        record["terms"] = TERMS if row.initial_conditions else 0
     return record
 
 

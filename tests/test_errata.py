@@ -368,3 +368,22 @@ def test_stepped_beam_of_table_2_is_the_heading_corrected() -> None:
     beam = rows(2)[0].beam(2)
     assert isinstance(beam, SteppedBeam)
     assert (beam.area_ratio, beam.inertia_ratio, beam.xi_c) == (0.6, 0.6, 0.6)
+
+
+def test_five_terms_are_a_truncation() -> None:
+    """The strongest row moves by 8e-4 from five terms to eight, and by 2e-5 from there to twelve."""
+    row = next(r for r in all_rows((3,)) if r.id == "T3-01b")
+
+    def T(terms: int) -> float:
+        return characteristic(row.beam(2).equation(row.Omega, row.gamma, 0.0, terms)).T
+
+    five, eight, twelve = T(5), T(8), T(12)
+    assert 5e-4 < eight - five < 1e-3
+    assert abs(twelve - eight) < 3e-5
+    assert f"{five:.5f} {eight:.5f} {twelve:.5f}" == "0.17538 0.17614 0.17613"
+    # the other unstable row, and one that is stable, do not move
+    for name, verdict in (("T3-03b", "unstable"), ("T3-06b", "stable")):
+        other = next(r for r in all_rows((3,)) if r.id == name)
+        for terms in (5, 8):
+            found = characteristic(other.beam(2).equation(other.Omega, other.gamma, 0.0, terms))
+            assert found.verdict == verdict
