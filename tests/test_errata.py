@@ -371,7 +371,7 @@ def test_stepped_beam_of_table_2_is_the_heading_corrected() -> None:
 
 
 def test_five_terms_are_a_truncation() -> None:
-    """The strongest row moves by 8e-4 from five terms to eight, and by 2e-5 from there to twelve."""
+    """The strongest row moves by 8e-4 from five terms to eight, by 2e-5 from there to twelve."""
     row = next(r for r in all_rows((3,)) if r.id == "T3-01b")
 
     def T(terms: int) -> float:

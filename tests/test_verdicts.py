@@ -150,7 +150,7 @@ def test_what_a_root_is_off_is_in_its_radius() -> None:
     exact = np.array([0.9, 0.3, -0.4])
     p = np.poly(exact)[None]
     nothing = np.zeros_like(p)
-    off = (exact + [1e-6, -1e-6, 1e-6])[None].astype(complex)
+    off = np.add(exact, [1e-6, -1e-6, 1e-6])[None].astype(complex)
     assert np.all(root_radii(p, nothing, off)[0] >= 1e-6)
     assert np.all(from_polynomial(off[0], p[0], nothing[0]).radius >= 1e-6)
 
