@@ -373,3 +373,19 @@ def test_a_place_that_cannot_be_written_is_refused(tmp_path: Path) -> None:
 def test_a_map_that_is_none_is_refused(workers: Any, says: str) -> None:
     with pytest.raises(ValueError, match=says):
         chart(BEAM, AXES, route="floquet", workers=workers)
+
+
+def test_two_processes_do_not_share_a_file(tmp_path: Path) -> None:
+    script = (
+        "import sys; from pathlib import Path; from compare.charts.store import Store; "
+        "s = Store(Path(sys.argv[1]), {'of': 'me'}, 3); print('mine', flush=True); input()"
+    )
+    words = [sys.executable, "-c", script, str(tmp_path / "nodes")]
+    with subprocess.Popen(words, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as first:
+        assert first.stdout is not None
+        assert first.stdout.readline() == "mine\n"
+        second = subprocess.run(words, input="\n", capture_output=True, text=True, check=False)
+        first.communicate("\n")
+    assert "in use by another process" in second.stderr
+    third = subprocess.run(words, input="\n", capture_output=True, text=True, check=False)
+    assert third.stdout == "mine\n"

@@ -3,21 +3,41 @@
 import csv
 import io
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
 from compare.charts.instabilities import Instability
 from compare.charts.result import Chart
+from compare.provenance import as_line
+
+
+def about(chart: Chart) -> dict[str, Any]:
+    """The system, its forcing and the axes of a chart, for its files."""
+    beam = chart.family.beam
+    return {
+        "system": type(beam).__name__,
+        "parameters": vars(beam),
+        "forcing": dict(chart.family.forcing),
+        "axes": [[a.name, a.low, a.high, a.count] for a in chart.axes],
+        "route": chart.route,
+        "error_of_P": chart.error,
+    }
 
 
 def npz(chart: Chart) -> bytes:
-    """Everything: axes, T, verdicts, errors, nodes and how far the routes differ there."""
+    """Everything: axes, T, verdicts, errors, nodes and how far the routes differ there.
+
+    And `provenance`, a line of JSON: system, forcing, version, units.
+    """
     buffer = io.BytesIO()
     named = {axis.name: axis.points for axis in chart.axes}
     np.savez_compressed(
         buffer,
         T=chart.T,
         unstable=chart.unstable(),
+        undecided=chart.undecided(),
+        provenance=as_line(about(chart)),
         error=chart.error,
         disagreement=chart.disagreement,
         nodes=chart.sampled,

@@ -16,6 +16,7 @@ import json
 import os
 import struct
 import time
+import weakref
 import zlib
 from collections.abc import Mapping
 from pathlib import Path
@@ -24,6 +25,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+try:
+    import fcntl
+except ImportError:  # no such notion here
+    fcntl = None  # type: ignore[assignment]
+
 Float = NDArray[np.floating[Any]]
 
 FORMAT = "floquet-crosscheck nodes 1"
@@ -31,6 +37,9 @@ HEAD = struct.Struct("<4sIII")
 """Of a record: mark, rows, checksum of the rows, checksum of the twelve bytes before."""
 
 MARK = b"NODE"
+
+_HELD: set[str] = set()
+"""Files that this process has locked at some time: it may have several stores of one."""
 
 PAUSE = 1.0
 """Seconds between two requests to the disk itself, which only the loss of power makes matter."""
@@ -79,7 +88,24 @@ class Store:
         if not os.access(path, os.W_OK):
             raise self._refusal("cannot be written (permission denied)")
         self._check_owner(data, header)
+        self._lock()
         self.lines = self._records(data, data.index(b"\n") + 1)
+
+    def _lock(self) -> None:
+        """Two processes that continue one file would do everything twice."""
+        if fcntl is None:
+            return
+        handle = os.open(self.path, os.O_RDWR)
+        # until this store, or the process, is gone
+        weakref.finalize(self, os.close, handle)
+        try:
+            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            _HELD.add(str(self.path.resolve()))
+        except BlockingIOError:
+            if str(self.path.resolve()) not in _HELD:
+                raise self._refusal("is in use by another process") from None
+        except OSError:  # a file system without locks
+            return
 
     def append(self, lines: Float) -> None:
         """Add lines, all or none of them.
