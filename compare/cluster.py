@@ -6,6 +6,7 @@ otherwise); a job that raises is not tried again. Workers that Dask's nanny star
 rule, have one BLAS thread each.
 """
 
+import logging
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
@@ -50,12 +51,19 @@ def connect(address: str) -> Iterator[MapLike]:
     ValueError
         No scheduler answers there, or Dask is not installed.
     """
+    host, colon, port = address.rpartition(":")
+    if not (host and colon and port.isdigit()):
+        raise ValueError(
+            f"cluster = {address!r}: no scheduler has such an address; like tcp://host:8786"
+        )
     try:
         from distributed import Client
     except ImportError:
         raise ValueError(
             'a cluster needs Dask: pip install "floquet-crosscheck[cluster]"'
         ) from None
+    # what Dask has to say of a lost connection is said here, in one line
+    logging.getLogger("distributed").setLevel(logging.CRITICAL)
     try:
         client = Client(address, timeout=PATIENCE, set_as_default=False)
     except (OSError, ValueError):

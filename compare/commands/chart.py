@@ -1,7 +1,7 @@
 """``verify chart``: stability over any two parameters."""
 
 import argparse
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from importlib.util import find_spec
 from pathlib import Path
@@ -144,7 +144,8 @@ def run(options: argparse.Namespace) -> int:
         if options.tongues is not None:
             write_whole(options.tongues, files.tongues_csv(found, axes_of(result)[1].name))
     if found:
-        terminal().print(_listed(found, axes_of(result)[1].name))
+        console = terminal()
+        console.print(_listed(found, axes_of(result)[1].name, console.width))
     for line in (*describe(result), *map(_told, nameless)):
         print(line)
     # P's error is absolute, the disagreement relative to P's largest coefficient, 1 or more
@@ -243,21 +244,35 @@ def _share(value: float) -> str:
     return f"{value:.1%}" if value == 0.0 or value >= 5e-4 else f"{value:.0e}".join(("", " of it"))
 
 
-def _listed(found: Sequence[Instability], other: str) -> Table:
-    """The tongues, widest first."""
-    table = Table(box=box.SIMPLE, pad_edge=False)
-    table.add_column("resonance", no_wrap=True)
-    table.add_column("type")
+NARROW = 110
+"""Columns below which the list of tongues leaves out what the others imply."""
+
+
+def _listed(found: Sequence[Instability], other: str, width: int) -> Table:
+    """The tongues, widest first; on a narrow terminal without types, tips and Hsu's values."""
+    table = Table(box=box.SIMPLE, pad_edge=False, padding=(0, 1, 0, 0))
     damped = other == "gamma" and any(np.isfinite(i.critical_gamma) for i in found)
-    heads = ["tip at Omega", other, f"widest at {other}", "width", "Hsu's", "largest T", "at Omega"]
-    for head in heads + ["critical gamma", "Hsu's"] * damped:
+    columns: list[tuple[str, Callable[[Instability], float], int, bool]] = [
+        ("tip at Omega", lambda i: i.tips[0][0] if i.tips else np.nan, 6, False),
+        (f"tip at {other}", lambda i: i.tips[0][1] if i.tips else np.nan, 5, False),
+        (f"at {other}", lambda i: i.y, 4, True),
+        ("width", lambda i: i.width, 5, True),
+        ("Hsu's", lambda i: i.width_Hsu or np.nan, 5, False),
+        ("largest T", lambda i: i.T, 5, True),
+        ("at Omega", lambda i: i.Omega, 5, True),
+    ]
+    if damped:
+        columns.append(("critical gamma", lambda i: i.critical_gamma, 5, True))
+        columns.append(("Hsu's", lambda i: i.critical_gamma_Hsu, 5, False))
+    shown = [c for c in columns if width >= NARROW or c[3]]
+    table.add_column("resonance", no_wrap=True)
+    if width >= NARROW:
+        table.add_column("type")
+    for head, *_ in shown:
         table.add_column(head, justify="right")
     for i in found:
-        tip = i.tips[0] if i.tips else (np.nan, np.nan)
-        numbers = [(tip[0], 6), (tip[1], 5), (i.y, 4), (i.width, 5)]
-        numbers += [(i.width_Hsu or np.nan, 5), (i.T, 5), (i.Omega, 5)]
-        if damped:
-            numbers += [(i.critical_gamma, 5), (i.critical_gamma_Hsu, 5)]
+        numbers = [(value(i), digits) for _, value, digits, _ in shown]
         words = [f"{v:.{digits}f}" if np.isfinite(v) else "-" for v, digits in numbers]
-        table.add_row(i.resonance.name, i.resonance.type, *words)
+        kind = [i.resonance.type] if width >= NARROW else []
+        table.add_row(i.resonance.name, *kind, *words)
     return table

@@ -14,7 +14,7 @@ from rich.table import Table
 
 from compare.charts import specification
 from compare.charts.parameters import Beam, Family
-from compare.commands.terminal import terminal
+from compare.commands.terminal import terminal, working
 from compare.output import check_writable, write_whole
 from compare.resonances import Resonance
 from floquet import BeamSensitivities, beam_sensitivities
@@ -60,7 +60,8 @@ def run(options: argparse.Namespace) -> int:
     if "Omega" not in forcing:
         forcing["Omega"] = _resonant(beam)
     Family(beam, forcing).check(())
-    found = beam_sensitivities(beam, **forcing)
+    with working("differentiating over one period"):
+        found = beam_sensitivities(beam, **forcing)
     suffix = options.output.suffix[1:] if options.output else ""
     if (options.format or suffix) == "json":
         _write(json.dumps(content(options.beam, found), indent=2) + "\n", options.output)

@@ -9,7 +9,7 @@ from rich.console import Console
 
 from compare import system_file
 from compare.both_routes import crosscheck
-from compare.commands.terminal import terminal
+from compare.commands.terminal import terminal, working
 from compare.crosscheck_text import FORMATS, WRITERS, Subject, text
 from compare.output import check_writable, write_whole
 from hill import checks
@@ -69,7 +69,8 @@ def run(options: argparse.Namespace) -> int:
             raise ValueError(f"{name}: has no value; give it in [forcing] or as --set {name}=")
     if options.output is not None:
         check_writable(options.output)
-    result = crosscheck(found.system, **found.forcing, method=options.method)
+    with working("both routes"):
+        result = crosscheck(found.system, **found.forcing, method=options.method)
     frequencies = natural_frequencies(found.system)
     subject = Subject(
         title=found.title,

@@ -4,7 +4,15 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+from rich.progress import (
+    BarColumn,
+    MofNCompleteColumn,
+    Progress,
+    SpinnerColumn,
+    TextColumn,
+    TimeElapsedColumn,
+    TimeRemainingColumn,
+)
 
 WIDE = 140
 """Columns where there is no terminal to ask."""
@@ -40,3 +48,15 @@ def progress(what: str, total: int) -> Iterator[Callable[[object], None]]:
     task = bar.add_task(what, total=total)
     with bar:
         yield lambda _: bar.advance(task)
+
+
+@contextmanager
+def working(what: str) -> Iterator[None]:
+    """A line on the standard error, with the seconds, while there are no steps to count."""
+    console = Console(stderr=True)
+    columns = (SpinnerColumn(), TextColumn(what), TimeElapsedColumn())
+    with Progress(
+        *columns, console=console, transient=True, disable=not console.is_terminal
+    ) as bar:
+        bar.add_task(what, total=None)
+        yield
