@@ -182,7 +182,9 @@ def _check(
     ValueError
         It exceeds the series' own bound, which then is none.
     """
-    low, high = np.array([axis.span for axis in axes]).T
+    # within what is drawn, not in the margin that tongues may reach into
+    ends = np.array([sorted(map(float, a.to_smooth(np.array([a.low, a.high])))) for a in axes])
+    low, high = ends.T
     smooth = low + (high - low) * np.random.default_rng(0).random((CHECKS, len(axes)))
     P, error = surface.evaluate(fitted, smooth)
     known = np.flatnonzero(np.isfinite(error))

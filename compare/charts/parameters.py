@@ -132,7 +132,7 @@ class Family:
         beam, forcing = self.at(varied)
         where = ", ".join(f"{k} = {v:g}" for k, v in (dict(varied) or forcing).items())
         Omega, gamma, eta = (forcing[name] for name in ("Omega", "gamma", "eta"))
-        checks.between("Omega", Omega, *CHARTED)
+        checks.between("Omega", checks.positive("Omega", Omega), *CHARTED)
         if abs(eta) > MOST_DECAY * Omega:
             raise ValueError(
                 f"{where}: eta/Omega = {eta / Omega:.3g} must be at most {MOST_DECAY:g}, or a "

@@ -182,7 +182,11 @@ def _at(chart: Chart, values: Mapping[str, ArrayLike]) -> Points:
     if np.any(~np.isfinite(error)):
         there = points[~np.isfinite(error)][0]
         words = ", ".join(f"{name} = {x:g}" for name, x in zip(names, there, strict=True))
-        raise ValueError(f"{words}: the axial force is infinite, a longitudinal resonance")
+        raise ValueError(
+            f"{words}: P is beyond a float, so fast does the solution grow"
+            if np.any(np.isinf(P[:, ~np.isfinite(error)][:, 0]))
+            else f"{words}: the axial force is infinite, a longitudinal resonance"
+        )
     named = dict(zip(names, points.T, strict=True))
     Omega, eta = (np.broadcast_to(v, len(points)) for v in Omega_and_eta(named, chart.family))
     return solve(P.T, error, Omega, eta)

@@ -48,13 +48,13 @@ def from_words(
     """
     values = dict(base.values) if base else {}
     kind = base.kind if base else kind
-    known = [*(f.name for f in fields(BEAMS[kind])), *FORCING]
+    known = [*FORCING, *(f.name for f in fields(BEAMS[kind]))]
     for word in settings:
         name, equals, text = word.partition("=")
         if not equals or not name:
             raise ValueError(f"--set {word}: must be NAME=VALUE")
         if name not in known:
-            raise ValueError(f"--set {word}: {one_of(name, known)}")
+            raise ValueError(f"--set {word}: {name}: {one_of(name, known)}")
         values[name] = _value(f"--set {word}", name, text)
     typed = tuple(
         Axis(name, _number(name, low), _number(name, high), _whole(name, count))
