@@ -32,8 +32,8 @@ FEW = 32
 
 # Rounding, in ulps of the terms summed, for each radian of the fastest motion. Over 596 random
 # systems, held against 600-bit arithmetic, the true error was 0.39 of the bound at most by numpy,
-# 0.27 compiled; tests/test_batch.py fails if it is ever above it.
-ULPS = 4.0
+# 0.27 compiled, with 4; one of 489 hostile systems of `benchmarks.honesty` then was 1.7 times off.
+ULPS = 12.0
 
 # Relative bound above which `monodromy` is asked, whose two runs know better.
 POOR = 1e-10

@@ -175,6 +175,11 @@ def monodromy(
         Phi_u = _finite(run(undamped, size, period))
         # growth in the first half may not show at the end
         scale = np.maximum(np.abs(Phi_u), np.where(np.isfinite(scale), scale, 0.0))
+        # nor an amplitude whose phase is near a zero: positions are of the size of the velocities
+        # over the fastest rate at least, and the other way round
+        fastest = rate(terms(undamped, size), undamped.C)
+        scale[:n, :n] = np.maximum(scale[:n, :n], np.abs(Phi_u[n:, :n]) / fastest)
+        scale[:n, :n] = np.maximum(scale[:n, :n], np.abs(Phi_u[:n, n:]) * fastest)
     A = Phi_u[:n, :n]
     ulps = 8.0 + rate(terms(undamped, size), undamped.C) * period
     found = known(A, _undamp(whole, eta, period)[:n, :n], scale[:n, :n], ulps, FLOOR[method])
