@@ -59,6 +59,16 @@ def test_the_summary_counts() -> None:
     assert counted == 3
 
 
+def test_every_cause_is_counted_as_itself() -> None:
+    (one,) = verify(tables=[1], rows=["T1-01"]).outcomes
+    times = {"agrees": 1, "truncation": 2, "listing-slip": 3, "misprint": 4, "unexplained": 5}
+    s = Report(
+        tuple(replace(one, cause=cause) for cause, k in times.items() for _ in range(k))  # type: ignore[arg-type]
+    ).summary
+    found = (s.agrees, s.truncation, s.listing_slip, s.misprint, s.unexplained)
+    assert found == (1, 2, 3, 4, 5)
+
+
 def test_the_listing_damps_as_the_equations_do() -> None:
     """(SIG^2 - i GA)^(1/2) of (4.4.17): its G against the closed form's, to the deck's digits."""
     case = Case(TO=20.0, SPC=0.5, XG=0.5, OMEGL=2.6, GA=0.3, GAMMA=0.1, ETA=0.0)
