@@ -38,6 +38,9 @@ ASKED, BUILT = 5.0, 60.0
 
 # Difference from numpy, of P, above which a build is not used.
 TRIED = 1e-10
+# The same for what P's error is made of: the fastest motion is found by groups of points, and is up
+# to 1.5e-3 lower.
+TRIED_ERROR = 0.1
 
 # Builds kept in mind; each is some kilobytes.
 MOST_KNOWN = 64
@@ -89,7 +92,9 @@ def _tried(found: March, n: int, terms: int) -> March:
     mine, other = by_numpy(points), found(points)
     apart = np.max(np.abs(mine.P - other.P), axis=1) / np.max(np.abs(mine.P), axis=1)
     # both are good to some ulps of P: 1e-14 at 40 coordinates
-    if not np.all(apart <= TRIED):
+    parts = [(vars(mine)[k], vars(other)[k]) for k in ("sensitivity", "growth", "rate")]
+    bounds = all(np.allclose(x, y, rtol=TRIED_ERROR, atol=0.0) for x, y in parts)
+    if not (bounds and np.all(apart <= TRIED)):
         raise ValueError("the compiled march computes something else")
     return found
 

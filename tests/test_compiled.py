@@ -7,13 +7,14 @@ import stat
 import time
 from collections.abc import Iterator
 from contextlib import suppress
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from floquet import compiled
-from floquet.march import Points, by_numpy
+from floquet.march import Found, Points, by_numpy
 
 pytestmark = pytest.mark.skipif(
     compiled.compiler() is None or os.name != "posix", reason="no C compiler here, or no POSIX"
@@ -182,6 +183,20 @@ def test_a_compiler_that_lies_about_the_result(
     real = shutil.which("cc") or shutil.which("gcc") or compiled.compiler()
     fake(tmp_path, monkeypatch, f'exec {real} "$@" -D__lying -Dcos=sin')
     assert compiled.march(2, 1) is None
+
+
+@pytest.mark.parametrize("part", ["P", "sensitivity", "growth", "rate"])
+@pytest.mark.parametrize("share", [0.5, np.nan])
+def test_each_part_of_the_result_is_tried(part: str, share: float) -> None:
+    """P could be right and its error a half of what it is."""
+
+    def lying(points: Points) -> Found:
+        found = by_numpy(points)
+        return replace(found, **{part: share * vars(found)[part]})
+
+    assert compiled._tried(by_numpy, 2, 1) is by_numpy
+    with pytest.raises(ValueError, match="something else"):
+        compiled._tried(lying, 2, 1)
 
 
 def test_a_library_without_the_function(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -101,8 +101,10 @@ def test_what_is_unsure_of_a_matrix_adds_to_the_bound() -> None:
     one, none = np.ones((1, 1)), np.zeros((1, 1))
     slope = Derivatives(0.0, 0.0, 0.0, none, none, np.zeros((0, 1, 1)))
     error = Derivatives(0.0, 0.0, 0.0, one, none, np.zeros((0, 1, 1)))
-    _, bound = _chain("T0", slope, error, np.zeros((2, 1, 1)), np.array([0.5, 0.0]))
-    assert bound >= 0.5
+    moved, unsure = np.zeros((2, 1, 1)), np.array([0.5, 0.0])
+    assert _chain("T0", slope, error, moved, unsure)[1] >= 0.5
+    # dT/dF is 1 for certain, dF off by 1/2
+    assert _chain("T0", error, slope, moved, unsure)[1] >= 0.5
 
 
 def test_what_may_be_zero_is_printed_as_zero() -> None:
