@@ -2,16 +2,19 @@
 
 import os
 import shutil
+import signal
 import stat
 import time
 from collections.abc import Iterator
+from contextlib import suppress
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from floquet import compiled
-from floquet.march import Points, by_numpy
+from floquet.march import Found, Points, by_numpy
 
 pytestmark = pytest.mark.skipif(
     compiled.compiler() is None or os.name != "posix", reason="no C compiler here, or no POSIX"
@@ -67,6 +70,61 @@ def test_a_spoilt_library_is_built_again(own_cache: Path, content: bytes | None)
     compiled._KNOWN.clear()
     assert works()
     assert path.stat().st_size > 8000
+
+
+@pytest.mark.parametrize("content", [b"", b"\xff\xfe", None], ids=["empty", "no text", "missing"])
+def test_a_spoilt_digest_is_written_again(own_cache: Path, content: bytes | None) -> None:
+    assert works()
+    path = library(own_cache).with_suffix(".sha256")
+    good = path.read_bytes()
+    path.unlink()
+    if content is not None:
+        path.write_bytes(content)
+    compiled._KNOWN.clear()
+    assert works()
+    assert path.read_bytes() == good
+
+
+def test_nobody_else_may_write_whatever_the_umask(own_cache: Path) -> None:
+    before = os.umask(0)
+    try:
+        assert works()
+    finally:
+        os.umask(before)
+    first = library(own_cache).stat().st_mtime_ns
+    assert [p.name for p in own_cache.iterdir() if p.stat().st_mode & 0o022] == []
+    compiled._KNOWN.clear()
+    assert works()
+    assert library(own_cache).stat().st_mtime_ns == first
+
+
+@pytest.mark.parametrize("suffix", [".so", ".sha256"])
+def test_what_others_could_write_to_is_built_again(own_cache: Path, suffix: str) -> None:
+    assert works()
+    path = library(own_cache).with_suffix(suffix)
+    path.chmod(0o666)
+    compiled._KNOWN.clear()
+    assert works()
+    assert not path.stat().st_mode & 0o022
+
+
+def test_a_folder_of_somebody_else_is_not_used(
+    own_cache: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    own_cache.mkdir(parents=True, mode=0o700)
+    # to root, who runs this in a container, every mode is writable; the owner is what tells
+    monkeypatch.setattr(os, "getuid", lambda: own_cache.stat().st_uid + 1)
+    assert compiled._folder() != own_cache
+    assert list(own_cache.iterdir()) == []
+
+
+def test_where_nobody_owns_anything_the_folder_is_used(
+    own_cache: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As on Windows, which has neither owner nor mode to look at."""
+    monkeypatch.delattr(os, "getuid")
+    assert works()
+    assert library(own_cache).is_file()
 
 
 def test_a_planted_library_is_not_loaded(own_cache: Path, tmp_path: Path) -> None:
@@ -127,10 +185,65 @@ def test_a_compiler_that_lies_about_the_result(
     assert compiled.march(2, 1) is None
 
 
+@pytest.mark.parametrize("part", ["P", "sensitivity", "growth", "rate"])
+@pytest.mark.parametrize("share", [0.5, np.nan])
+def test_each_part_of_the_result_is_tried(part: str, share: float) -> None:
+    """P could be right and its error a half of what it is."""
+
+    def lying(points: Points) -> Found:
+        found = by_numpy(points)
+        return replace(found, **{part: share * vars(found)[part]})
+
+    assert compiled._tried(by_numpy, 2, 1) is by_numpy
+    with pytest.raises(ValueError, match="something else"):
+        compiled._tried(lying, 2, 1)
+
+
 def test_a_library_without_the_function(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     real = shutil.which("cc") or shutil.which("gcc") or compiled.compiler()
     fake(tmp_path, monkeypatch, f'exec {real} "$@" -Dmarch=other')
     assert compiled.march(2, 1) is None
+
+
+def test_a_library_that_reports_failure(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its only failure is want of memory, which is no reason to give up on the points."""
+    real = compiled.compiler()
+    source = tmp_path / "failing.c"
+    source.write_text("int march(void) { return 1; }\n")
+    script = f"""[ "$1" = --version ] && exit 0
+while [ $# -gt 0 ]; do [ "$1" = -o ] && out=$2; shift; done
+exec {real} -shared -fPIC -o "$out" {source}"""
+    fake(tmp_path, monkeypatch, script)
+    assert compiled.march(2, 1) is None
+
+
+def test_a_mended_compiler_is_asked_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """In the same process, under the same name."""
+    real = compiled.compiler()
+    fake(tmp_path, monkeypatch, "exit 1")
+    assert compiled.march(2, 1) is None
+    fake(tmp_path, monkeypatch, f'exec {real} "$@"')
+    os.utime(tmp_path / "fakecc", ns=(1, 1))
+    assert works()
+
+
+@pytest.mark.parametrize("stage", ["ASKED", "BUILT"])
+def test_what_leaves_the_group_is_not_waited_for(
+    stage: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A daemon that the compiler starts keeps its output open; it is not ours to end."""
+    if shutil.which("setsid") is None:
+        pytest.skip("no setsid")
+    quick = '[ "$1" = --version ] && exit 0' if stage == "BUILT" else ":"
+    fake(tmp_path, monkeypatch, f"{quick}\nsetsid sleep 30 & echo $! > {tmp_path}/child; sleep 30")
+    monkeypatch.setattr(compiled, stage, 0.5)
+    started = time.monotonic()
+    try:
+        assert compiled.march(2, 1) is None
+        assert time.monotonic() - started < 10.0
+    finally:
+        with suppress(ProcessLookupError):
+            os.kill(int((tmp_path / "child").read_text()), signal.SIGKILL)
 
 
 def test_a_compiler_that_hangs_is_ended_with_its_children(

@@ -59,6 +59,16 @@ def test_the_summary_counts() -> None:
     assert counted == 3
 
 
+def test_every_cause_is_counted_as_itself() -> None:
+    (one,) = verify(tables=[1], rows=["T1-01"]).outcomes
+    times = {"agrees": 1, "truncation": 2, "listing-slip": 3, "misprint": 4, "unexplained": 5}
+    s = Report(
+        tuple(replace(one, cause=cause) for cause, k in times.items() for _ in range(k))  # type: ignore[arg-type]
+    ).summary
+    found = (s.agrees, s.truncation, s.listing_slip, s.misprint, s.unexplained)
+    assert found == (1, 2, 3, 4, 5)
+
+
 def test_the_listing_damps_as_the_equations_do() -> None:
     """(SIG^2 - i GA)^(1/2) of (4.4.17): its G against the closed form's, to the deck's digits."""
     case = Case(TO=20.0, SPC=0.5, XG=0.5, OMEGL=2.6, GA=0.3, GAMMA=0.1, ETA=0.0)
@@ -91,8 +101,10 @@ def test_what_is_unsure_of_a_matrix_adds_to_the_bound() -> None:
     one, none = np.ones((1, 1)), np.zeros((1, 1))
     slope = Derivatives(0.0, 0.0, 0.0, none, none, np.zeros((0, 1, 1)))
     error = Derivatives(0.0, 0.0, 0.0, one, none, np.zeros((0, 1, 1)))
-    _, bound = _chain("T0", slope, error, np.zeros((2, 1, 1)), np.array([0.5, 0.0]))
-    assert bound >= 0.5
+    moved, unsure = np.zeros((2, 1, 1)), np.array([0.5, 0.0])
+    assert _chain("T0", slope, error, moved, unsure)[1] >= 0.5
+    # dT/dF is 1 for certain, dF off by 1/2
+    assert _chain("T0", error, slope, moved, unsure)[1] >= 0.5
 
 
 def test_what_may_be_zero_is_printed_as_zero() -> None:
