@@ -3,8 +3,8 @@
 In s = sin^2(Omega tau/2) the undamped equation has polynomial coefficients: its solutions even and
 odd in tau are power series in s whose coefficients follow from the few before, about s = 0 and, for
 the middle of the period, about s = 1. They meet at s = 1/2, where both fall off like 2**-k; what is
-left out is bounded. A damping matrix spoils this, and Taylor steps go over the whole period, whose
-truncation is seen by taking more of them (`refine`).
+left out is bounded. A damping matrix spoils this, and Taylor steps go over the whole period; what
+their truncation adds is seen by taking twice as many, not proven, and is part of the ball.
 
 Every number is a ball from the floats' exact values on, so nothing has to be believed but the
 radius at the end; where that is wide, all is done again with twice the bits. No code of the two
@@ -14,7 +14,7 @@ routes is used: `equation` is read as data.
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import reduce
-from math import ceil, comb, factorial
+from math import ceil, comb, factorial, log2
 from operator import add
 from typing import Any, Literal
 
@@ -32,10 +32,10 @@ NARROW = 140
 # A system that takes more terms than this is none that a float can hold.
 MOST_TERMS = 20000
 
-# A Taylor step of REACH over the fastest rate leaves reach**(order + 1) / (order + 1)! = 4**61/61!,
-# or 1e-47. The forcing counts more than once: for imaginary time its cosine grows exponentially,
-# and the series of the solution falls off later than that of an exponential.
-ORDER = 60
+# A Taylor step of REACH over the fastest rate leaves reach**(order + 1) / (order + 1)!, which the
+# order makes less than half the bits can tell. The forcing counts more than once: for imaginary
+# time its cosine grows exponentially, and the series of the solution falls off later than that of
+# an exponential.
 REACH = 4.0
 
 Truth = Literal["stable", "unstable", "boundary", "unknown"]
@@ -93,7 +93,11 @@ def reference(equation: Any, refine: int = 1, narrow: int = NARROW) -> list[Any]
     while bits <= MOST_BITS:
         with ctx.workprec(bits):
             try:
-                p = list(reversed(_square(equation, refine).charpoly().coeffs()))
+                p = _polynomial(equation, refine)
+                if np.ndim(equation.eta) > 0 and _finite(p):
+                    # each of twice the steps leaves 2**-order of what one left
+                    again = _polynomial(equation, 2 * refine)
+                    p = [b + arb(0, abs(a - b).upper()) for a, b in zip(p, again, strict=True)]
             except ZeroDivisionError:  # a ball that holds a singular matrix
                 p = [arb.nan()]
             widest = max((x.rad() for x in p), key=float) if _finite(p) else arb.pos_inf()
@@ -198,6 +202,10 @@ def _midpoint_roots(truth: Sequence[Any]) -> list[Any]:
 
 def _finite(numbers: Iterable[Any]) -> bool:
     return all(x.is_finite() for x in numbers)
+
+
+def _polynomial(equation: Any, refine: int) -> list[Any]:
+    return list(reversed(_square(equation, refine).charpoly().coeffs()))
 
 
 def _square(equation: Any, refine: int) -> Any:
@@ -313,27 +321,37 @@ def _integrate(equation: Any, C: Any, Q: Any, V: Any, refine: int) -> tuple[Any,
     if steps > MOST_TERMS:
         raise TooWide(f"takes {steps} Taylor steps")
 
+    order = _order()
     h = 2 * arb.pi() / (Omega * steps)
     stiffness, pulses = F * (h * h), [(p, M * (h * h)) for p, M in terms]
     for k in range(steps):
-        cosines = [(M, _cosine(p * Omega * h, k)) for p, M in pulses]
+        cosines = [(M, _cosine(p * Omega * h, k, order)) for p, M in pulses]
         a = [Q, V * h]
-        for j in range(ORDER - 1):
+        for j in range(order - 1):
             total = stiffness * a[j]
             for M, c in cosines:
                 total = total + M * _sum(a[j - i] * c[i] for i in range(j + 1))
             total = total + C * a[j + 1] * (h * (j + 1))
             a.append(total * arb(-1) / ((j + 1) * (j + 2)))
-        Q, V = _sum(a), _sum(a[j] * j for j in range(1, ORDER + 1)) / h
+        Q, V = _sum(a), _sum(a[j] * j for j in range(1, order + 1)) / h
     return Q, V
+
+
+def _order() -> int:
+    """The least with REACH**(order + 1) / (order + 1)! below 2**(-bits/2 - 16): 61 at 280 bits."""
+    order, log = 0, 0.0
+    while log > -(ctx.prec / 2 + 16) or order < REACH:
+        order += 1
+        log += log2(REACH / order)
+    return order
 
 
 def _sum(parts: Iterable[Any]) -> Any:
     return reduce(add, parts)
 
 
-def _cosine(angle: Any, k: int) -> list[Any]:
+def _cosine(angle: Any, k: int, order: int) -> list[Any]:
     """Coefficients of cos(angle (k + x)) in powers of x."""
     s, c = (angle * k).sin_cos()
     turn = [c, -s, -c, s]
-    return [turn[i % 4] * angle**i / factorial(i) for i in range(ORDER)]
+    return [turn[i % 4] * angle**i / factorial(i) for i in range(order)]
