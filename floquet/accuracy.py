@@ -109,3 +109,15 @@ def moved_by_data(F: Float, x: Float, shift: Float) -> tuple[Float, Float]:
     w = np.sqrt(np.abs(values * x[:, None] - shift[:, None]))
     moved = np.pi / np.maximum(w, 0.5 / np.pi)
     return np.sum(moved * (of_F + of_shift), axis=1), np.sum(moved * of_every, axis=1)
+
+
+def amplitudes(Phi: Float, fastest: float) -> Float:
+    """Sizes of what swings: an element near a zero of its phase has been larger a moment before.
+
+    Positions are as large as the velocities over the fastest rate at least, velocities no larger
+    than positions times it.
+    """
+    n = len(Phi) // 2
+    moduli = np.abs(Phi)
+    positions = np.maximum(moduli[:n], moduli[n:] / fastest)
+    return np.vstack([positions, np.maximum(moduli[n:], moduli[:n] * fastest)])

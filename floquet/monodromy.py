@@ -17,7 +17,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from floquet.accuracy import OVERFLOW, known, moved_by_data
+from floquet.accuracy import OVERFLOW, amplitudes, known, moved_by_data
 from floquet.eigenvalues import eigenvalues, from_matrix, from_polynomial
 from floquet.growth import Verdict, from_multipliers, from_z
 from floquet.ode import Parameters, shape, values
@@ -175,8 +175,7 @@ def monodromy(
         Phi_u = _finite(run(undamped, size, period))
         # growth in the first half may not show at the end
         scale = np.maximum(np.abs(Phi_u), np.where(np.isfinite(scale), scale, 0.0))
-        # nor an amplitude whose phase is near a zero: positions are of the size of the velocities
-        # over the fastest rate at least, and the other way round
+        # nor an amplitude whose phase is near a zero, of columns or of rows
         fastest = rate(terms(undamped, size), undamped.C)
         scale[:n, :n] = np.maximum(scale[:n, :n], np.abs(Phi_u[n:, :n]) / fastest)
         scale[:n, :n] = np.maximum(scale[:n, :n], np.abs(Phi_u[:n, n:]) * fastest)
@@ -222,7 +221,7 @@ def _general(equation: HillEquation, run: Propagator, checked: Float, method: st
     period = 2.0 * np.pi / equation.Omega
     Phi = _finite(run(p, size, period))
     ulps = 8.0 + rate(terms(p, size), p.C) * period
-    found = known(Phi, checked, np.abs(Phi), ulps, FLOOR[method])
+    found = known(Phi, checked, amplitudes(Phi, rate(terms(p, size), p.C)), ulps, FLOOR[method])
     mu = eigenvalues(Phi)
     families = from_polynomial(mu, found.p, found.errors), from_matrix(Phi, found.matrix_error)
     # Liouville: the product of all mu is exp(-period tr C)
