@@ -11,9 +11,9 @@ from benchmarks.measure import timed
 from benchmarks.ours import drawn
 from benchmarks.systems import Float, Points
 from compare.charts import chebyshev
-from floquet.march import ORDER, TOLERANCE
-from floquet.steps import longest_step
-from hill.roots import growth
+from compare.stability.roots import growth
+from floquet.batch.numpy_kernel import ORDER, TOLERANCE
+from floquet.integrate.step_length import longest_step
 
 SIDE = 1024
 """Of the matrices multiplied."""
@@ -125,8 +125,8 @@ def _plain(value: Any) -> Any:
 def batch_work(points: Points) -> dict[str, float]:
     """A direct batch: Taylor steps, operations and bytes a point, on average over some points.
 
-    The recurrence of `floquet.march`: for each of its powers the Cauchy product with the cosine,
-    two n-by-n matrices times n-by-2n columns, and a division.
+    The recurrence of `floquet.batch.numpy_kernel`: for each of its powers the Cauchy product with
+    the cosine, two n-by-n matrices times n-by-2n columns, and a division.
     """
     n, order = points.n, ORDER
     nothing = np.zeros((n, n))

@@ -17,8 +17,8 @@ from benchmarks.measure import once, rounds, timed
 from benchmarks.plan import Plan
 from benchmarks.reference import Reference
 from benchmarks.systems import Contender, Float, Points, Solver, grid, grid_points, one, points
+from compare.stability.roots import growth
 from hill import HillEquation
-from hill.roots import growth
 
 AT = 1e-10
 """The chart that is to be shown."""

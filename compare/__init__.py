@@ -10,19 +10,19 @@ if TYPE_CHECKING:
     from compare.both_routes import CrossCheck, crosscheck
     from compare.charts.compute import chart
     from compare.charts.result import Chart
-    from compare.row import Outcome
-    from compare.run import Report, verify
+    from compare.report.row import Outcome
+    from compare.report.run import Report, verify
 
 __all__ = ["Chart", "CrossCheck", "Outcome", "Report", "chart", "crosscheck", "verify"]
 
 _HOMES = {
     "Chart": "compare.charts.result",
     "CrossCheck": "compare.both_routes",
-    "Outcome": "compare.row",
-    "Report": "compare.run",
+    "Outcome": "compare.report.row",
+    "Report": "compare.report.run",
     "chart": "compare.charts.compute",
     "crosscheck": "compare.both_routes",
-    "verify": "compare.run",
+    "verify": "compare.report.run",
 }
 
 

@@ -73,7 +73,7 @@ def _run(words: list[str]) -> int:
     program = "verify" if name == "rows" else f"verify {name}"
     command: Any = import_module(f"compare.commands.{name}")
     options = _parser(command, program, name).parse_args(words)
-    from compare.workers import WorkersError
+    from compare.jobs.workers import WorkersError
 
     with suppress(ValueError):
         signal.signal(signal.SIGINT, signal.default_int_handler)

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from compare import chart
 from compare.charts.specification import from_file
-from compare.cluster import connect
+from compare.jobs.cluster import connect
 
 
 def main(address: str | None = None, resume: str = "three_parameters.nodes") -> None:

@@ -1,7 +1,15 @@
-from floquet.beam_sensitivity import BeamSensitivities as BeamSensitivities
-from floquet.beam_sensitivity import beam_sensitivities as beam_sensitivities
-from floquet.monodromy import Monodromy as Monodromy
-from floquet.monodromy import monodromy as monodromy
-from floquet.sensitivity import Derivatives as Derivatives
-from floquet.sensitivity import Sensitivities as Sensitivities
-from floquet.sensitivity import sensitivities as sensitivities
+"""The witness: a periodic system in the time domain, its monodromy matrix, what follows from it."""
+
+from floquet.period import Monodromy, monodromy
+from floquet.sensitivity.equation import Derivatives, Sensitivities, sensitivities
+from floquet.sensitivity.system import BeamSensitivities, beam_sensitivities
+
+__all__ = [
+    "BeamSensitivities",
+    "Derivatives",
+    "Monodromy",
+    "Sensitivities",
+    "beam_sensitivities",
+    "monodromy",
+    "sensitivities",
+]

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 Float = NDArray[np.floating[Any]]
 
 BY_MINORS = 3
-"""Up to this size the minors are written out; `floquet/march.c` has the same."""
+"""Up to this size the minors are written out; `floquet/batch/kernel.c` has the same."""
 
 
 EPS = float(np.finfo(float).eps)

@@ -1,7 +1,7 @@
 """Hill's determinant: equations, systems and the determinant's route to their stability."""
 
 from hill.beams import SteppedBeam, UniformBeam
-from hill.characteristic import Characteristic, characteristic
+from hill.determinant.converged import Characteristic, characteristic
 from hill.equation import HillEquation
 from hill.errors import LongitudinalResonance, Refused
 from hill.system import MatrixSystem, Parameter, System

@@ -1,10 +1,10 @@
 """Many equations at once: P(z) of each from Hill's determinant, without Python in the inner loop.
 
-As in `hill.characteristic` P is sampled on the circle |z| = 1, but clear of z = +-1 and of the real
-axis, so that the determinant needs no pivots (`hill.folding`). Each sample is worth two of P's real
-coefficients, and three or four are to spare: by Liouville's theorem the leading one is 1 and there
-are no higher ones, and how much they fail to say so measures what rounding has done.
-Where that is too much, `hill.characteristic` is asked, which pivots.
+As in `hill.determinant.converged` P is sampled on the circle |z| = 1, but clear of z = +-1 and of
+the real axis, so that the determinant needs no pivots (`hill.determinant.folding`). Each sample is
+worth two of P's real coefficients, and three or four are to spare: by Liouville's theorem the
+leading one is 1 and there are no higher ones, and how much they fail to say so measures what
+rounding has done. Where that is too much, `hill.characteristic` is asked, which pivots.
 """
 
 from collections.abc import Iterator, Sequence
@@ -14,9 +14,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hill.characteristic import characteristic
+from hill.determinant.converged import characteristic
+from hill.determinant.folding import System, samples
 from hill.equation import HillEquation
-from hill.folding import System, samples
 
 Float = NDArray[np.floating[Any]]
 EPS = float(np.finfo(float).eps)

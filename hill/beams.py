@@ -1,6 +1,6 @@
 """The report's two beams: parameters, frozen and validated, and what is asked of a beam.
 
-The formulas are in :mod:`hill.uniform` and :mod:`hill.stepped`.
+The formulas are in :mod:`hill.matrices.uniform` and :mod:`hill.matrices.stepped`.
 """
 
 import math
@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import brentq
 
-from hill import checks, stepped, uniform
+from hill import checks
 from hill.beam_common import (
     COMMON,
     LARGEST_G,
@@ -25,6 +25,7 @@ from hill.beam_common import (
     refuse_resonance,
 )
 from hill.equation import HillEquation
+from hill.matrices import stepped, uniform
 from hill.system import Parameter
 
 Float = NDArray[np.floating[Any]]

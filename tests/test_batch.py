@@ -8,19 +8,20 @@ import pytest
 from arbiter import largest_error, reference
 from systems import random_system
 
-from floquet import compiled, monodromy
-from floquet.batch import WORTH_COMPILING, polynomials, sweep
-from floquet.march import growth_bound
-from floquet.steps import longest_step, perron
+from compare.stability.roots import all_within, growth, most_isolated_root
+from floquet import monodromy
+from floquet.batch import c_kernel, polynomials, sweep
+from floquet.batch.equations import WORTH_COMPILING
+from floquet.batch.numpy_kernel import growth_bound
+from floquet.integrate.step_length import longest_step, perron
 from hill import HillEquation, UniformBeam
-from hill.roots import all_within, growth, most_isolated_root
 from hill.stability import modulus
 
 BEAM = UniformBeam(T0=20.0, K_theta=0.5, xi_G=0.5).equation(1.0, 0.1)
 
 
-needs_compiler = pytest.mark.skipif(compiled.compiler() is None, reason="no C compiler here")
-KERNELS: list[Any] = ["numpy"] + ["compiled"] * (compiled.compiler() is not None)
+needs_compiler = pytest.mark.skipif(c_kernel.compiler() is None, reason="no C compiler here")
+KERNELS: list[Any] = ["numpy"] + ["compiled"] * (c_kernel.compiler() is not None)
 each_kernel = pytest.mark.parametrize(
     "kernel", ["numpy", pytest.param("compiled", marks=needs_compiler)]
 )
@@ -107,7 +108,7 @@ def test_sweep_is_the_same_points(kernel: Any) -> None:
 def test_auto_depends_on_the_count_only(monkeypatch: pytest.MonkeyPatch) -> None:
     """The same call gives the same digits, whatever was built before it."""
     asked: list[tuple[int, int]] = []
-    monkeypatch.setattr(compiled, "march", lambda *size: asked.append(size))
+    monkeypatch.setattr(c_kernel, "march", lambda *size: asked.append(size))
     Omega, gamma = forcings(WORTH_COMPILING)
     sweep(BEAM, Omega=Omega[1:50], gamma=gamma[1:50])
     assert not asked
@@ -120,18 +121,18 @@ def test_auto_depends_on_the_count_only(monkeypatch: pytest.MonkeyPatch) -> None
 @needs_compiler
 def test_a_compiler_is_never_required(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
-    compiled._KNOWN.clear()
-    assert compiled.march(2, 1) is not None
+    c_kernel._KNOWN.clear()
+    assert c_kernel.march(2, 1) is not None
     (built,) = (tmp_path / "floquet-crosscheck").glob("*.so")
-    compiled._KNOWN.clear()
-    assert compiled.march(2, 1) is not None
+    c_kernel._KNOWN.clear()
+    assert c_kernel.march(2, 1) is not None
     assert [built] == list((tmp_path / "floquet-crosscheck").glob("*.so"))
 
     def refused(*, CC: str | None, folder: Path) -> None:
-        compiled._KNOWN.clear()
+        c_kernel._KNOWN.clear()
         monkeypatch.setenv("XDG_CACHE_HOME", str(folder))
         if CC is None:
-            monkeypatch.setattr(compiled.shutil, "which", lambda _: None)
+            monkeypatch.setattr(c_kernel.shutil, "which", lambda _: None)
         else:
             monkeypatch.setenv("CC", CC)
         one = HillEquation(F=[[1.0]], G=[[1.0]], gamma=0.1, Omega=1.0)
@@ -142,15 +143,15 @@ def test_a_compiler_is_never_required(monkeypatch: pytest.MonkeyPatch, tmp_path:
     blocked = tmp_path / "a file"
     blocked.write_text("")
     monkeypatch.setenv("XDG_CACHE_HOME", str(blocked))  # nowhere to keep it: built all the same
-    compiled._KNOWN.clear()
-    assert compiled.march(2, 1) is not None
+    c_kernel._KNOWN.clear()
+    assert c_kernel.march(2, 1) is not None
     failing = tmp_path / "cc"
     failing.write_text('#!/bin/sh\n[ "$1" = --version ]\n')
     failing.chmod(0o700)
     refused(CC=str(failing), folder=tmp_path / "other")
     assert not list((tmp_path / "other" / "floquet-crosscheck").iterdir())
     refused(CC=None, folder=tmp_path)
-    compiled._KNOWN.clear()
+    c_kernel._KNOWN.clear()
 
 
 def test_growth_bound_is_one() -> None:

@@ -7,9 +7,8 @@ import numpy as np
 import pytest
 from scipy.linalg import eigh_tridiagonal
 
-from compare.boundaries import Cutter, Family, Tongue, follow
-from compare.figures.routes import Batched, family, solve
-from compare.indicators import (
+from compare.report.figures.routes import Batched, family, solve
+from compare.stability.indicators import (
     crossings,
     deepest,
     edges,
@@ -19,8 +18,9 @@ from compare.indicators import (
     interpolate_in_Omega,
     roots,
 )
-from compare.resonances import Resonance, first_order, half_width, modal
+from compare.tongues.boundaries import Cutter, Family, Tongue, follow
 from hill import HillEquation, UniformBeam, characteristic
+from hill.averaging import Resonance, first_order, half_width, modal
 
 Float = np.ndarray
 

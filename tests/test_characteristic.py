@@ -9,7 +9,7 @@ from systems import DENSE, SPECIAL
 
 from floquet import monodromy
 from hill import HillEquation, SteppedBeam, UniformBeam, characteristic
-from hill.determinant import blocks
+from hill.determinant.finite import blocks
 
 BEAM = UniformBeam(T0=20.0, K_theta=0.5, xi_G=0.5)
 

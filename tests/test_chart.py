@@ -14,11 +14,11 @@ from compare.charts import chebyshev, surface
 from compare.charts.compute import chart
 from compare.charts.result import Chart
 from compare.charts.surface import evaluate
-from compare.charts.tongues import tongues
-from compare.resonances import half_width
+from compare.tongues.on_chart import tongues
 from floquet import monodromy
 from floquet.galerkin import galerkin
 from hill import SteppedBeam, UniformBeam, characteristic
+from hill.averaging import half_width
 
 BEAM = UniformBeam(T0=20.0, K_theta=0.5, xi_G=0.5)
 WIDE = [("Omega", 0.35, 6.0, 300), ("gamma", 0.0, 0.5, 200)]

@@ -14,9 +14,9 @@ import pytest
 
 from compare.__main__ import main
 from compare.charts.specification import from_file
+from compare.stability.roots import growth
 from floquet.batch import polynomials
 from hill import HillEquation
-from hill.roots import growth
 
 ROOT = Path(__file__).parents[1]
 PAGE = (ROOT / "docs" / "charts.md").read_text(encoding="utf-8")

@@ -15,18 +15,18 @@ from scipy.integrate import solve_ivp
 
 import compare.commands.claims as command
 from compare.__main__ import main
-from compare.claims import Judged, RoutesDisagree, claims, judge, page
-from compare.claims.finding import CHECKS, Finding, Number, graded
-from compare.claims.run import check_of
+from compare.report.claims import Judged, RoutesDisagree, claims, judge, page
+from compare.report.claims.finding import CHECKS, Finding, Number, graded
+from compare.report.claims.run import check_of
 
-cases = import_module("compare.claims.cases")
-initial = import_module("compare.claims.initial")
-quadrature = import_module("compare.claims.quadrature")
-resonance = import_module("compare.claims.resonance")
-routes = import_module("compare.claims.routes")
-tongues = import_module("compare.claims.tongues")
-damping = import_module("compare.claims.damping")
-compliance = import_module("compare.claims.compliance")
+cases = import_module("compare.report.claims.cases")
+initial = import_module("compare.report.claims.initial")
+quadrature = import_module("compare.report.claims.quadrature")
+resonance = import_module("compare.report.claims.resonance")
+routes = import_module("compare.report.claims.routes")
+tongues = import_module("compare.report.claims.tongues")
+damping = import_module("compare.report.claims.damping")
+compliance = import_module("compare.report.claims.compliance")
 
 IDS = [claim.id for claim in claims()]
 PAGE = Path(__file__).parents[1] / "docs" / "claims.md"
@@ -78,7 +78,7 @@ def test_every_claim_has_one_check_and_every_check_its_claim() -> None:
 
 
 def test_data_are_complete() -> None:
-    text = (files("compare") / "data/claims.toml").read_text()
+    text = (files("compare") / "report/data/claims.toml").read_text()
     fields = {"id", "section", "title", "claim", "computed", "rule", "expected"}
     for entry in tomllib.loads(text)["claim"]:
         assert set(entry) == fields

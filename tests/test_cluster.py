@@ -10,12 +10,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from compare import cluster
 from compare.charts.compute import chart
 from compare.charts.nodes import BATCH, Nodes
 from compare.charts.parameters import Axis, Family
-from compare.cluster import connect, over
-from compare.workers import WorkersError, unordered
+from compare.jobs import cluster
+from compare.jobs.cluster import connect, over
+from compare.jobs.workers import WorkersError, unordered
 from hill import UniformBeam
 
 distributed = pytest.importorskip("distributed", reason="needs the extra: cluster")

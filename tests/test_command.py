@@ -14,10 +14,11 @@ import pytest
 from commands import refusal
 
 import compare.commands.rows as rows_command
-from compare import render, verify
+from compare import verify
 from compare.__main__ import main
-from compare.row import Outcome
-from compare.run import Report
+from compare.report import render
+from compare.report.row import Outcome
+from compare.report.run import Report
 
 ONE = ["--row", "T1-12"]
 

@@ -13,20 +13,20 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from floquet import compiled
-from floquet.march import Found, Points, by_numpy
+from floquet.batch import c_kernel
+from floquet.batch.numpy_kernel import Found, Points, by_numpy
 
 pytestmark = pytest.mark.skipif(
-    compiled.compiler() is None or os.name != "posix", reason="no C compiler here, or no POSIX"
+    c_kernel.compiler() is None or os.name != "posix", reason="no C compiler here, or no POSIX"
 )
 
 
 @pytest.fixture(autouse=True)
 def own_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
-    compiled._KNOWN.clear()
+    c_kernel._KNOWN.clear()
     yield tmp_path / "cache" / "floquet-crosscheck"
-    compiled._KNOWN.clear()
+    c_kernel._KNOWN.clear()
 
 
 def library(folder: Path) -> Path:
@@ -35,7 +35,7 @@ def library(folder: Path) -> Path:
 
 
 def works() -> bool:
-    march = compiled.march(2, 1)
+    march = c_kernel.march(2, 1)
     if march is None:
         return False
     points = Points(np.array([np.eye(2), np.eye(2)]), np.full((2, 1), 0.1), np.zeros(1), (1,))
@@ -54,7 +54,7 @@ def test_it_is_kept_and_belongs_to_the_user(own_cache: Path) -> None:
     assert works()
     assert stat.S_IMODE(own_cache.stat().st_mode) == 0o700
     first = library(own_cache).stat().st_mtime_ns
-    compiled._KNOWN.clear()
+    c_kernel._KNOWN.clear()
     assert works()
     assert library(own_cache).stat().st_mtime_ns == first
 
@@ -67,7 +67,7 @@ def test_a_spoilt_library_is_built_again(own_cache: Path, content: bytes | None)
     other = path.with_suffix(".other")
     other.write_bytes(path.read_bytes()[:4000] if content is None else content)
     other.replace(path)
-    compiled._KNOWN.clear()
+    c_kernel._KNOWN.clear()
     assert works()
     assert path.stat().st_size > 8000
 
@@ -80,7 +80,7 @@ def test_a_spoilt_digest_is_written_again(own_cache: Path, content: bytes | None
     path.unlink()
     if content is not None:
         path.write_bytes(content)
-    compiled._KNOWN.clear()
+    c_kernel._KNOWN.clear()
     assert works()
     assert path.read_bytes() == good
 
@@ -93,7 +93,7 @@ def test_nobody_else_may_write_whatever_the_umask(own_cache: Path) -> None:
         os.umask(before)
     first = library(own_cache).stat().st_mtime_ns
     assert [p.name for p in own_cache.iterdir() if p.stat().st_mode & 0o022] == []
-    compiled._KNOWN.clear()
+    c_kernel._KNOWN.clear()
     assert works()
     assert library(own_cache).stat().st_mtime_ns == first
 
@@ -103,7 +103,7 @@ def test_what_others_could_write_to_is_built_again(own_cache: Path, suffix: str)
     assert works()
     path = library(own_cache).with_suffix(suffix)
     path.chmod(0o666)
-    compiled._KNOWN.clear()
+    c_kernel._KNOWN.clear()
     assert works()
     assert not path.stat().st_mode & 0o022
 
@@ -114,7 +114,7 @@ def test_a_folder_of_somebody_else_is_not_used(
     own_cache.mkdir(parents=True, mode=0o700)
     # to root, who runs this in a container, every mode is writable; the owner is what tells
     monkeypatch.setattr(os, "getuid", lambda: own_cache.stat().st_uid + 1)
-    assert compiled._folder() != own_cache
+    assert c_kernel._folder() != own_cache
     assert list(own_cache.iterdir()) == []
 
 
@@ -136,8 +136,8 @@ def test_a_planted_library_is_not_loaded(own_cache: Path, tmp_path: Path) -> Non
         "#include <stdio.h>\n__attribute__((constructor)) static void f(void)"
         f'{{ fclose(fopen("{told}", "w")); }}\nint march(void) {{ return 0; }}\n'
     )
-    os.system(f"{compiled.compiler()} -shared -fPIC -o {path} {source}")
-    compiled._KNOWN.clear()
+    os.system(f"{c_kernel.compiler()} -shared -fPIC -o {path} {source}")
+    c_kernel._KNOWN.clear()
     assert works()
     assert not told.exists()
 
@@ -171,7 +171,7 @@ def test_a_poor_compiler_costs_speed_alone(
     script: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     fake(tmp_path, monkeypatch, script)
-    assert compiled.march(2, 1) is None
+    assert c_kernel.march(2, 1) is None
     # it is not held against another one
     monkeypatch.delenv("CC")
     assert works()
@@ -180,9 +180,9 @@ def test_a_poor_compiler_costs_speed_alone(
 def test_a_compiler_that_lies_about_the_result(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    real = shutil.which("cc") or shutil.which("gcc") or compiled.compiler()
+    real = shutil.which("cc") or shutil.which("gcc") or c_kernel.compiler()
     fake(tmp_path, monkeypatch, f'exec {real} "$@" -D__lying -Dcos=sin')
-    assert compiled.march(2, 1) is None
+    assert c_kernel.march(2, 1) is None
 
 
 @pytest.mark.parametrize("part", ["P", "sensitivity", "growth", "rate"])
@@ -194,34 +194,34 @@ def test_each_part_of_the_result_is_tried(part: str, share: float) -> None:
         found = by_numpy(points)
         return replace(found, **{part: share * vars(found)[part]})
 
-    assert compiled._tried(by_numpy, 2, 1) is by_numpy
+    assert c_kernel._tried(by_numpy, 2, 1) is by_numpy
     with pytest.raises(ValueError, match="something else"):
-        compiled._tried(lying, 2, 1)
+        c_kernel._tried(lying, 2, 1)
 
 
 def test_a_library_without_the_function(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    real = shutil.which("cc") or shutil.which("gcc") or compiled.compiler()
+    real = shutil.which("cc") or shutil.which("gcc") or c_kernel.compiler()
     fake(tmp_path, monkeypatch, f'exec {real} "$@" -Dmarch=other')
-    assert compiled.march(2, 1) is None
+    assert c_kernel.march(2, 1) is None
 
 
 def test_a_library_that_reports_failure(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Its only failure is want of memory, which is no reason to give up on the points."""
-    real = compiled.compiler()
+    real = c_kernel.compiler()
     source = tmp_path / "failing.c"
     source.write_text("int march(void) { return 1; }\n")
     script = f"""[ "$1" = --version ] && exit 0
 while [ $# -gt 0 ]; do [ "$1" = -o ] && out=$2; shift; done
 exec {real} -shared -fPIC -o "$out" {source}"""
     fake(tmp_path, monkeypatch, script)
-    assert compiled.march(2, 1) is None
+    assert c_kernel.march(2, 1) is None
 
 
 def test_a_mended_compiler_is_asked_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """In the same process, under the same name."""
-    real = compiled.compiler()
+    real = c_kernel.compiler()
     fake(tmp_path, monkeypatch, "exit 1")
-    assert compiled.march(2, 1) is None
+    assert c_kernel.march(2, 1) is None
     fake(tmp_path, monkeypatch, f'exec {real} "$@"')
     os.utime(tmp_path / "fakecc", ns=(1, 1))
     assert works()
@@ -236,10 +236,10 @@ def test_what_leaves_the_group_is_not_waited_for(
         pytest.skip("no setsid")
     quick = '[ "$1" = --version ] && exit 0' if stage == "BUILT" else ":"
     fake(tmp_path, monkeypatch, f"{quick}\nsetsid sleep 30 & echo $! > {tmp_path}/child; sleep 30")
-    monkeypatch.setattr(compiled, stage, 0.5)
+    monkeypatch.setattr(c_kernel, stage, 0.5)
     started = time.monotonic()
     try:
-        assert compiled.march(2, 1) is None
+        assert c_kernel.march(2, 1) is None
         assert time.monotonic() - started < 10.0
     finally:
         with suppress(ProcessLookupError):
@@ -250,9 +250,9 @@ def test_a_compiler_that_hangs_is_ended_with_its_children(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     fake(tmp_path, monkeypatch, f"sleep 300 & echo $! > {tmp_path}/child; sleep 300")
-    monkeypatch.setattr(compiled, "ASKED", 1.0)
+    monkeypatch.setattr(c_kernel, "ASKED", 1.0)
     started = time.monotonic()
-    assert compiled.march(2, 1) is None
+    assert c_kernel.march(2, 1) is None
     assert time.monotonic() - started < 20.0
     child = int((tmp_path / "child").read_text())
     for _ in range(50):

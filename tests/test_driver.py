@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from compare.__main__ import main
-from compare.cards import read_deck
-from compare.collate import (
+from compare.report.program.cards import read_deck
+from compare.report.program.collate import (
     KINDS,
     NUMBER,
     Difference,
@@ -21,8 +21,8 @@ from compare.collate import (
     differences,
     printed_output,
 )
-from compare.deck import Cards, shipped
-from compare.driver import (
+from compare.report.program.deck import Cards, shipped
+from compare.report.program.driver import (
     Evaluation,
     FrequencyLine,
     Note,
@@ -31,13 +31,13 @@ from compare.driver import (
     TableHeading,
     events,
 )
-from compare.formats import F, lines
-from compare.muller import in_order
-from compare.routes import ROUTES, as_run, beam
+from compare.report.program.evaluators import ROUTES, as_run, beam
+from compare.report.program.formats import F, lines
+from compare.report.program.listing import MOST_STEPS, NoBoundary, Stab, search
+from compare.report.program.muller import in_order
 from floquet import monodromy
 from floquet.galerkin import galerkin
 from hill import characteristic
-from hill.listing import MOST_STEPS, NoBoundary, Stab, search
 
 PROGRAMS = ("uniform", "stepped")
 CONTROL = {"uniform": 15, "stepped": 43}
@@ -439,7 +439,7 @@ def test_truncation_shows_near_twice_the_lowest_frequency(program: str) -> None:
 
 
 def deck_file(program: str) -> str:
-    return (files("compare") / f"data/deck_{program}.txt").read_text()
+    return (files("compare") / f"report/data/deck_{program}.txt").read_text()
 
 
 def test_command_prints_the_listing(capsys: pytest.CaptureFixture[str]) -> None:

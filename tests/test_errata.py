@@ -12,16 +12,16 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from compare.deck import constants
-from compare.errata import Erratum, errata
-from compare.recover import HALF_UNIT, T_AS_RUN, Z_AS_RUN
-from compare.row import equation
-from compare.tables import Row, all_rows, corrected, heading, printed_lines, rows
+from compare.report.errata import Erratum, errata
+from compare.report.program.deck import constants
+from compare.report.program.listing import Stab, Uniform, coefficients, frequencies, stab
+from compare.report.recover import HALF_UNIT, T_AS_RUN, Z_AS_RUN
+from compare.report.row import equation
+from compare.report.tables import Row, all_rows, corrected, heading, printed_lines, rows
 from hill import HillEquation, SteppedBeam, UniformBeam, characteristic
-from hill.listing import Stab, Uniform, coefficients, frequencies, stab
 
-match = import_module("compare.match")
-uniform = import_module("hill.uniform")
+match = import_module("compare.report.match")
+uniform = import_module("hill.matrices.uniform")
 
 TESTS = Path(__file__).parent
 ROWS = {row.id: row for row in all_rows()}
@@ -107,7 +107,7 @@ def test_at_4_975_the_beam_is_stable() -> None:
 
 def test_listing_prints_4_979() -> None:
     """Beside the T and z of Table 1, within the two units that the compliance is worth."""
-    text = (TESTS.parent / "compare/data/listing_uniform.txt").read_text()
+    text = (TESTS.parent / "compare/report/data/listing_uniform.txt").read_text()
     block = re.search(r"OMEGB= 4\.979(.*\n){4}", text)
     assert block is not None
     z1, z2, z3, *_, T = (float(x) for x in re.findall(r"-?\d*\.\d{5}", block[0]))
@@ -189,7 +189,7 @@ def test_open_row_at_383_is_not_what_the_listing_prints() -> None:
     row = ROWS["T1-05"]
     found = as_run(row)
     listed = (-1.05427, -0.69691, -0.97445)
-    text = (TESTS.parent / "compare/data/listing_uniform.txt").read_text()
+    text = (TESTS.parent / "compare/report/data/listing_uniform.txt").read_text()
     assert "ROOTR              -1.05427   -.69691   -.97445" in text
     assert match.distance(found.roots, listed) <= 1e-5
     assert abs(found.STAB1 - 0.03994) <= 5e-6
@@ -279,8 +279,8 @@ def test_two_constants_of_the_stepped_deck() -> None:
     deck = constants("stepped")
     found = {}
     for n in range(1, 6):
-        shape = import_module("hill.modes").slope(n)
-        lam = import_module("hill.modes").eigenvalue(n)
+        shape = import_module("hill.matrices.modes").slope(n)
+        lam = import_module("hill.matrices.modes").eigenvalue(n)
         for row in range(10):
             exact = shape((row + 1) / 10) / lam
             if abs(deck.D1PH[row, n - 1] - exact) > 1e-4:

@@ -5,11 +5,11 @@ from pathlib import Path
 
 import pytest
 
-from compare.errata import errata
-from compare.row import Outcome, check
-from compare.tables import all_rows
+from compare.report.errata import errata
+from compare.report.row import Outcome, check
+from compare.report.tables import all_rows
 
-errata_page = import_module("compare.errata_page")
+errata_page = import_module("compare.report.errata_page")
 
 PAGE = Path(__file__).parent.parent / "docs" / "errata.md"
 
@@ -20,7 +20,7 @@ def outcomes() -> tuple[Outcome, ...]:
 
 
 def test_page_is_up_to_date(outcomes: tuple[Outcome, ...]) -> None:
-    """If not: python -m compare.errata_page."""
+    """If not: python -m compare.report.errata_page."""
     assert errata_page.page(outcomes) == PAGE.read_text(encoding="utf-8")
     assert errata_page.PAGE.parts == PAGE.parts[-2:]
 

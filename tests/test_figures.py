@@ -9,21 +9,21 @@ import numpy as np
 import pytest
 
 from compare.__main__ import main
-from compare.figures import coupled as coupling
-from compare.figures import draw as drawing
-from compare.figures import style
-from compare.figures.beams import beam_of, family_of, resonance_named
-from compare.figures.catalogue import ETA, FIGURES, GAMMA, ORDER
-from compare.figures.compute import KINDS, compute, named, tasks
-from compare.figures.critical import BOTTOM, TOP
-from compare.figures.data import FigureData, Series, as_csv, from_csv
-from compare.figures.frequencies import loss
-from compare.figures.routes import equation, solve
-from compare.figures.sampling import adaptive
-from compare.indicators import growth, indicator
-from compare.resonances import modal
-from compare.tables import number, rows
+from compare.report.figures import coupled as coupling
+from compare.report.figures import draw as drawing
+from compare.report.figures import style
+from compare.report.figures.beams import beam_of, family_of, resonance_named
+from compare.report.figures.catalogue import ETA, FIGURES, GAMMA, ORDER
+from compare.report.figures.compute import KINDS, compute, named, tasks
+from compare.report.figures.critical import BOTTOM, TOP
+from compare.report.figures.data import FigureData, Series, as_csv, from_csv
+from compare.report.figures.frequencies import loss
+from compare.report.figures.routes import equation, solve
+from compare.report.figures.sampling import adaptive
+from compare.report.tables import number, rows
+from compare.stability.indicators import growth, indicator
 from hill import characteristic
+from hill.averaging import modal
 
 # The routes at the marks of the full set: 5e-11 in T (Figure 8, beside an edge, where T is steep),
 # 7e-12 in Omega, 3e-12 in the integral, 4e-15 in a natural frequency.

@@ -13,7 +13,7 @@ from hill import HillEquation, SteppedBeam, UniformBeam, characteristic
 from hill.batch import Polynomials, polynomials
 
 batch = import_module("hill.batch")
-folding = import_module("hill.folding")
+folding = import_module("hill.determinant.folding")
 
 CHUNK = batch.CHUNK // 9  # equations
 

@@ -8,10 +8,10 @@ import pytest
 from scipy.optimize import brentq
 
 from compare import Chart, chart
-from compare.charts.curves import Curve, curves
-from compare.charts.instabilities import Instability, instabilities
-from compare.charts.tongues import distinct, tongues
-from compare.indicators import edge_function
+from compare.stability.indicators import edge_function
+from compare.tongues.curves import Curve, curves
+from compare.tongues.instabilities import Instability, instabilities
+from compare.tongues.on_chart import distinct, tongues
 from floquet import monodromy
 from floquet.galerkin import galerkin
 from hill import SteppedBeam, UniformBeam, characteristic

@@ -11,10 +11,18 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from compare.deck import Cards, Field, constants, fields, from_file, shipped, uniform_constants
+from compare.report.program.deck import (
+    Cards,
+    Field,
+    constants,
+    fields,
+    from_file,
+    shipped,
+    uniform_constants,
+)
+from compare.report.program.listing import Case, Stab, frequencies, stab, switch
 from hill import SteppedBeam, UniformBeam
-from hill.listing import Case, Stab, frequencies, stab, switch
-from hill.modes import eigenvalue, mode
+from hill.matrices.modes import eigenvalue, mode
 
 PROGRAMS = ("uniform", "stepped")
 
@@ -86,7 +94,7 @@ AFTER_POLES_MET = "uniform-3-2 X FREQ(1)-6"
 
 def listing(program: str, number: int) -> str:
     """The printed output of one FORMAT."""
-    text = (files("compare") / f"data/listing_{program}.txt").read_text()
+    text = (files("compare") / f"report/data/listing_{program}.txt").read_text()
     return re.split(r"FORMAT \(\d\)\n", text)[number]
 
 
@@ -410,7 +418,7 @@ def test_a_malformed_card_is_named_with_its_columns(text: str, pattern: str, mes
 
 def test_a_malformed_deck_is_named(tmp_path: Path) -> None:
     deck = tmp_path / "mine.txt"
-    text = (files("compare") / "data/deck_uniform.txt").read_text()
+    text = (files("compare") / "report/data/deck_uniform.txt").read_text()
     deck.write_text(text.replace("-1.0007773", "-1.00O7773"))
     with pytest.raises(ValueError, match=r"^mine\.txt, card 3, columns 13-24: '-1\.00O7773'"):
         uniform_constants(from_file(deck))

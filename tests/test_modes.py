@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from hill.modes import Exponentials, curvature, eigenvalue, mode, slope
+from hill.matrices.modes import Exponentials, curvature, eigenvalue, mode, slope
 
 # Two of the literature's eigenvalues differ from these in the seventeenth digit at most.
 PUBLISHED = [4.7300407448627040, 7.8532046240958376, 10.995607838001671]

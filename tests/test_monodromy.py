@@ -6,9 +6,10 @@ from scipy.linalg import expm
 from systems import DENSE, SPECIAL, random_system
 
 from floquet import monodromy
-from floquet.monodromy import second_half
-from floquet.ode import shape, values
-from floquet.propagate import Cvodes, Taylor
+from floquet.integrate.cvodes import Cvodes
+from floquet.integrate.ode import shape, values
+from floquet.integrate.taylor import Taylor
+from floquet.period import second_half
 from hill import HillEquation
 
 F = np.array([[2.0, 0.3], [0.2, 1.0]])

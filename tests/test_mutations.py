@@ -13,27 +13,28 @@ from typing import Any
 import numpy as np
 import pytest
 
-from compare.deck import constants
-from compare.match import distance
-from compare.recover import T_AS_RUN, Z_AS_RUN
-from compare.row import check
-from compare.tables import Row, all_rows, corrected
+from compare.report.match import distance
+from compare.report.program.deck import constants
+from compare.report.program.listing import Case, coefficients, stab
+from compare.report.recover import T_AS_RUN, Z_AS_RUN
+from compare.report.row import check
+from compare.report.tables import Row, all_rows, corrected
 from hill import HillEquation, SteppedBeam, UniformBeam, characteristic
-from hill.listing import Case, coefficients, stab
 
 # Modules, whatever name the packages give to a function in them.
-uniform = import_module("hill.uniform")
-stepped = import_module("hill.stepped")
-determinant = import_module("hill.determinant")
-solver = import_module("hill.characteristic")
-residues = import_module("hill.residues")
-modes = import_module("hill.modes")
-listing = import_module("hill.listing")
-row_module = import_module("compare.row")
+uniform = import_module("hill.matrices.uniform")
+stepped = import_module("hill.matrices.stepped")
+determinant = import_module("hill.determinant.finite")
+solver = import_module("hill.determinant.converged")
+residues = import_module("hill.determinant.residues")
+modes = import_module("hill.matrices.modes")
+listing = import_module("compare.report.program.listing")
+row_module = import_module("compare.report.row")
 galerkin = import_module("floquet.galerkin")
-ode = import_module("floquet.ode")
-propagate = import_module("floquet.propagate")
-monodromies = import_module("floquet.monodromy")
+ode = import_module("floquet.integrate.ode")
+taylor = import_module("floquet.integrate.taylor")
+cvodes = import_module("floquet.integrate.cvodes")
+monodromies = import_module("floquet.period")
 
 ROWS = {row.id: row for row in all_rows()}
 
@@ -46,8 +47,8 @@ Patch = pytest.MonkeyPatch
 
 def rebuild(monkeypatch: Patch) -> None:
     """CasADi functions are cached; a mutated one is compiled anew and does not outlive its test."""
-    for name in ("_step", "folded", "_integrator"):
-        monkeypatch.setattr(propagate, name, lru_cache(getattr(propagate, name).__wrapped__))
+    for module, name in ((taylor, "_step"), (taylor, "folded"), (cvodes, "_integrator")):
+        monkeypatch.setattr(module, name, lru_cache(getattr(module, name).__wrapped__))
 
 
 # ---- the checks ----------------------------------------------------------------------------------
@@ -348,7 +349,7 @@ def test_time_factor(cosine: Any, monkeypatch: Patch) -> None:
     """cos(Omega tau), and no cos(n Omega tau) as in (4.4.22)."""
     assert row_was_sound("T3-05b")
     rebuild(monkeypatch)
-    monkeypatch.setattr(propagate, "_cosine", cosine(propagate._cosine))
+    monkeypatch.setattr(taylor, "_cosine", cosine(taylor._cosine))
     assert not row_is_sound("T3-05b")
 
 
@@ -363,9 +364,9 @@ def test_time_factor_of_the_second_witness(monkeypatch: Patch) -> None:
 
     assert meets()
     rebuild(monkeypatch)
-    right = propagate.acceleration
+    right = cvodes.acceleration
     monkeypatch.setattr(
-        propagate, "acceleration", lambda q, v, tau, p, size: right(q, v, tau + 0.1, p, size)
+        cvodes, "acceleration", lambda q, v, tau, p, size: right(q, v, tau + 0.1, p, size)
     )
     assert not meets()
 
@@ -536,5 +537,6 @@ def test_the_rule_of_truncation(name: str, monkeypatch: Patch) -> None:
 
 def test_every_cache_is_rebuilt() -> None:
     """`rebuild` reaches all that holds a compiled equation."""
-    cached = {name for name, value in vars(propagate).items() if hasattr(value, "cache_clear")}
-    assert cached == {"_step", "folded", "_integrator"}
+    for module, names in ((taylor, {"_step", "folded"}), (cvodes, {"_integrator"})):
+        cached = {name for name, value in vars(module).items() if hasattr(value, "cache_clear")}
+        assert cached == names

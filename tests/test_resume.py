@@ -51,7 +51,7 @@ import multiprocessing, sys
 from pathlib import Path
 from compare.charts.nodes import Nodes
 from compare.charts.parameters import Axis, Family
-from compare.workers import mapper
+from compare.jobs.workers import mapper
 from hill import UniformBeam
 import numpy as np
 
@@ -339,7 +339,7 @@ def test_nodes_of_other_numerics_are_refused(
     monkeypatch.setattr(nodes, "files", lambda package: tmp_path / package)
     compute = nodes.numerics.__wrapped__
     assert compute() == nodes.numerics()
-    source = tmp_path / "hill" / "roots.py"
+    source = tmp_path / "hill" / "determinant" / "finite.py"
     source.write_text(source.read_text() + "\nX = 1\n")
     assert compute() != nodes.numerics()
     monkeypatch.setattr(nodes, "numerics", compute)

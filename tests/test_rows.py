@@ -7,11 +7,12 @@ from importlib import import_module
 import numpy as np
 import pytest
 
-from compare.deck import constants
-from compare.errata import is_open
-from compare.recover import HALF_UNIT, T_AS_RUN, Z_AS_RUN, recover
-from compare.row import Outcome, check
-from compare.tables import (
+from compare.report.errata import is_open
+from compare.report.program.deck import constants
+from compare.report.program.listing import stab
+from compare.report.recover import HALF_UNIT, T_AS_RUN, Z_AS_RUN, recover
+from compare.report.row import Outcome, check
+from compare.report.tables import (
     Row,
     all_rows,
     corrected,
@@ -21,11 +22,10 @@ from compare.tables import (
     rows,
 )
 from hill import Characteristic, UniformBeam, characteristic
-from hill.listing import stab
 
-match = import_module("compare.match")
-uniform = import_module("hill.uniform")
-modes = import_module("hill.modes")
+match = import_module("compare.report.match")
+uniform = import_module("hill.matrices.uniform")
+modes = import_module("hill.matrices.modes")
 
 ROWS = {row.id: row for row in all_rows()}
 WITH_Z = [name for name, row in ROWS.items() if row.z_printed]

@@ -17,8 +17,8 @@ from systems import SPECIAL, random_system
 import compare.commands.sensitivity as command
 from compare.__main__ import main
 from floquet import Derivatives, beam_sensitivities, monodromy, sensitivities
-from floquet.beam_sensitivity import BOUNDS, LINEAR, matrix_derivatives
-from floquet.derivative import derivative
+from floquet.sensitivity.derivative import derivative
+from floquet.sensitivity.system import BOUNDS, LINEAR, matrix_derivatives
 from hill import HillEquation, SteppedBeam, UniformBeam, characteristic
 
 UNIFORM = UniformBeam(T0=20.0, K_theta=0.5, xi_G=0.5)

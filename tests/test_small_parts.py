@@ -8,15 +8,15 @@ import pytest
 from numpy.polynomial import chebyshev
 
 from compare import verify
-from compare.deck import constants
-from compare.indicators import edge_function
-from compare.render import decimal
-from compare.run import Report
-from floquet.beam_sensitivity import _chain
-from floquet.derivative import NODES, _on
-from floquet.sensitivity import Derivatives
+from compare.report.program.deck import constants
+from compare.report.program.listing import Case, coefficients
+from compare.report.render import decimal
+from compare.report.run import Report
+from compare.stability.indicators import edge_function
+from floquet.sensitivity.derivative import NODES, _on
+from floquet.sensitivity.equation import Derivatives
+from floquet.sensitivity.system import _chain
 from hill import UniformBeam
-from hill.listing import Case, coefficients
 
 
 @pytest.mark.parametrize("eta", [0.0, 0.2])

@@ -2,8 +2,8 @@
 
 import pytest
 
-from compare.tables import Row, all_rows
-from compare.terms import MoreTerms, with_more_terms
+from compare.report.tables import Row, all_rows
+from compare.report.terms import MoreTerms, with_more_terms
 from floquet import monodromy
 from floquet.galerkin import galerkin
 

@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 from threadpoolctl import threadpool_info
 
-import compare.workers
-from compare.workers import WorkersError, mapper, unordered
+import compare.jobs.workers
+from compare.jobs.workers import WorkersError, mapper, unordered
 
 
 def square(x: int) -> int:
@@ -83,8 +83,8 @@ def test_a_process_that_dies_is_reported() -> None:
 
 
 def test_minus_one_is_every_core(monkeypatch: pytest.MonkeyPatch) -> None:
-    assert 1 <= compare.workers.cores() <= (os.cpu_count() or 1)
-    monkeypatch.setattr(compare.workers, "cores", lambda: 1)
+    assert 1 <= compare.jobs.workers.cores() <= (os.cpu_count() or 1)
+    monkeypatch.setattr(compare.jobs.workers, "cores", lambda: 1)
     with mapper(-1) as run:
         assert run is map
 

@@ -14,7 +14,8 @@ import floquet.batch
 import hill.batch
 from benchmarks.honesty import arbiter
 from benchmarks.honesty.systems import GROUP, SHARED, members
-from floquet import compiled, monodromy
+from floquet import monodromy
+from floquet.batch import c_kernel
 from hill import HillEquation, characteristic
 from hill.stability import judge
 
@@ -175,7 +176,7 @@ def _answers(
         some = everyone[:SHARED]
         batches.append(("hill.batch shared", some, hill.batch.polynomials))
         batches.append(("numpy shared", some, _sweep))
-    if compiled.march(equations[0].n, 1 + len(equations[0].H)) is not None:
+    if c_kernel.march(equations[0].n, 1 + len(equations[0].H)) is not None:
         batches.append(
             ("compiled", everyone, lambda es: floquet.batch.polynomials(es, kernel="compiled"))
         )

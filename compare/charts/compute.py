@@ -14,7 +14,7 @@ from compare.charts import surface
 from compare.charts.nodes import ROUTES, Nodes, solved
 from compare.charts.parameters import MOST_POINTS, Axis, Beam, Family
 from compare.charts.result import Chart, Omega_and_eta, from_smooth, ln_R, on_grid
-from compare.workers import MapLike, mapper
+from compare.jobs.workers import MapLike, mapper
 from hill import checks
 
 Float = NDArray[np.floating[Any]]

@@ -6,10 +6,10 @@ from typing import Any
 
 import numpy as np
 
-from compare.boundaries import Tongue
-from compare.charts.curves import Curve
 from compare.charts.result import Chart
-from compare.tables import all_rows
+from compare.report.tables import all_rows
+from compare.tongues.boundaries import Tongue
+from compare.tongues.curves import Curve
 from hill import SteppedBeam, UniformBeam
 
 SYMBOLS = {

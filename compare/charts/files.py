@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from compare.charts.instabilities import Instability
 from compare.charts.result import Chart
 from compare.provenance import as_line
+from compare.tongues.instabilities import Instability
 
 
 def about(chart: Chart) -> dict[str, Any]:

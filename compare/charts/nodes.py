@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from compare.charts.parameters import Axis, Family
 from compare.charts.store import Store
-from compare.workers import MapLike, WorkersError, unordered
+from compare.jobs.workers import MapLike, WorkersError, unordered
 from floquet import batch as by_floquet
 from hill import HillEquation
 from hill import batch as by_hill
@@ -218,7 +218,7 @@ class Nodes:
             return jobs.pop(result[0]), result[1]
         raise ValueError(
             f"workers: the map returned a {type(result).__name__} that is no job's result; a Dask "
-            "client goes in as compare.cluster.over(client)"
+            "client goes in as compare.jobs.cluster.over(client)"
         )
 
     def _remember(self, whole: Float) -> None:

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from compare.charts import chebyshev, nodes, surface
 from compare.charts.parameters import Axis, Family
 from compare.charts.points import Points, solve, verdicts
-from hill.roots import growth
+from compare.stability.roots import growth
 
 Float = NDArray[np.floating[Any]]
 

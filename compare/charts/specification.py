@@ -5,8 +5,8 @@ from pathlib import Path
 from typing import Any
 
 from compare.charts.parameters import FORCING, Axis, Beam
+from compare.report.tables import STEPPED, UNIFORM
 from compare.system_file import one_of, table, toml
-from compare.tables import STEPPED, UNIFORM
 from hill import SteppedBeam, UniformBeam
 
 BEAMS: dict[str, type[Beam]] = {"uniform": UniformBeam, "stepped": SteppedBeam}

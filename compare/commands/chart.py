@@ -13,19 +13,19 @@ from rich.console import Console
 from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 from rich.table import Table
 
-from compare.boundaries import Tongue
 from compare.charts import files, specification
 from compare.charts.compute import chart
-from compare.charts.curves import Curve, curves
 from compare.charts.draw import NO_PICTURES, QUANTITIES, picture
-from compare.charts.instabilities import Instability, instabilities
 from compare.charts.nodes import ROUTES
 from compare.charts.result import Chart
-from compare.charts.tongues import ORDERS, axes_of, tongues
-from compare.charts.unnamed import Region, unnamed
-from compare.cluster import connect
 from compare.commands.terminal import terminal
+from compare.jobs.cluster import connect
 from compare.output import check_apart, check_writable, write_whole
+from compare.tongues.boundaries import Tongue
+from compare.tongues.curves import Curve, curves
+from compare.tongues.instabilities import Instability, instabilities
+from compare.tongues.on_chart import ORDERS, axes_of, tongues
+from compare.tongues.unnamed import Region, unnamed
 from hill import checks
 
 SUMMARY = "chart the characteristic argument T over two parameters or more"

@@ -12,12 +12,12 @@ from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
-from compare.claims import page
-from compare.claims.finding import VERDICTS
-from compare.claims.routes import RoutesDisagree
-from compare.claims.run import Judged, judge, select
 from compare.commands.terminal import progress, terminal
 from compare.output import check_writable, write_whole
+from compare.report.claims import page
+from compare.report.claims.finding import VERDICTS
+from compare.report.claims.routes import RoutesDisagree
+from compare.report.claims.run import Judged, judge, select
 
 STYLES = {"confirmed": "green", "qualified": "yellow", "refuted": "red"}
 SUMMARY = "go through the report's conclusions, each with numbers by both routes and a verdict"

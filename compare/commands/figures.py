@@ -5,12 +5,12 @@ from functools import partial
 from pathlib import Path
 
 from compare.commands.terminal import progress
-from compare.figures.catalogue import FIGURES
-from compare.figures.compute import compute, named, tasks
-from compare.figures.data import as_csv
-from compare.figures.draw import draw, require
+from compare.jobs.workers import ALL, mapper
 from compare.output import check_writable, write_whole
-from compare.workers import ALL, mapper
+from compare.report.figures.catalogue import FIGURES
+from compare.report.figures.compute import compute, named, tasks
+from compare.report.figures.data import as_csv
+from compare.report.figures.draw import draw, require
 
 FORMATS = ("png", "svg", "csv")
 SUMMARY = "draw the report's figures, 3 to 29, from both routes"

@@ -5,8 +5,10 @@ import sys
 from collections import Counter
 from pathlib import Path
 
-from compare.cards import Deck, read_deck
-from compare.collate import (
+from compare.commands.terminal import progress
+from compare.output import check_writable, write_whole
+from compare.report.program.cards import Deck, read_deck
+from compare.report.program.collate import (
     Difference,
     Judged,
     State,
@@ -15,12 +17,10 @@ from compare.collate import (
     differences,
     printed_output,
 )
-from compare.commands.terminal import progress
-from compare.deck import Cards, from_file, shipped
-from compare.driver import FrequencyLine, Note, ResonanceHeading, blocks, events
-from compare.formats import lines
-from compare.output import check_writable, write_whole
-from compare.routes import ROUTES, Route
+from compare.report.program.deck import Cards, from_file, shipped
+from compare.report.program.driver import FrequencyLine, Note, ResonanceHeading, blocks, events
+from compare.report.program.evaluators import ROUTES, Route
+from compare.report.program.formats import lines
 
 SUMMARY = "read a data deck of the report's programs and print what they print"
 EPILOG = """\

@@ -8,11 +8,11 @@ from pathlib import Path
 
 from rich.console import Console
 
-from compare import render
 from compare.commands.terminal import progress, terminal
 from compare.output import check_writable, write_whole
-from compare.run import Report, select, verify
-from compare.tables import TABLES
+from compare.report import render
+from compare.report.run import Report, select, verify
+from compare.report.tables import TABLES
 
 SUMMARY = "check every printed row of the report's tables by two independent routes"
 EPILOG = """\

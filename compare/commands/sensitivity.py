@@ -16,8 +16,8 @@ from compare.charts import specification
 from compare.charts.parameters import Beam, Family
 from compare.commands.terminal import terminal, working
 from compare.output import check_writable, write_whole
-from compare.resonances import Resonance
 from floquet import BeamSensitivities, beam_sensitivities
+from hill.averaging import Resonance
 
 SUMMARY = "how the characteristic argument T moves with every parameter"
 EPILOG = """\

@@ -1,0 +1,1 @@
+"""Where evaluations run: processes, or a Dask cluster."""

@@ -1,0 +1,159 @@
+"""Jobs on this process, on several, or on whatever maps like `map`."""
+
+import os
+import signal
+import threading
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
+from multiprocessing import parent_process
+from multiprocessing.context import SpawnContext, SpawnProcess
+from typing import Any
+
+from hill import checks
+
+MapLike = Callable[[Callable[[Any], Any], Iterable[Any]], Iterable[Any]]
+"""A function that maps like `map` and keeps the order."""
+
+ALL = -1
+"""As SciPy says "all cores"."""
+
+# As many processes as cores leave nothing for BLAS threads to do but wait for each other.
+ONE_THREAD = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), "1")
+
+
+class WorkersError(RuntimeError):
+    """Workers were lost: nothing is said about the numbers."""
+
+
+@contextmanager
+def mapper(workers: int | MapLike, chunk: int = 1) -> Iterator[MapLike]:
+    """A map over jobs.
+
+    Parameters
+    ----------
+    workers : int or map-like
+        Processes, -1 for one a core, or the map itself. Processes are spawned, each with one BLAS
+        thread, and go when this process goes, however it ends.
+    chunk : int, optional
+        Jobs handed to a process at a time.
+
+    Raises
+    ------
+    ValueError
+        `workers` is neither callable nor a whole number >= 1 nor -1.
+    WorkersError
+        While mapping: a process died.
+    """
+    if callable(workers):
+        yield workers
+        return
+    if hasattr(workers, "submit"):
+        kind = type(workers).__name__
+        raise ValueError(
+            f"workers = {kind}: must be a number, or a function that maps like map, such as an "
+            "executor's .map or compare.jobs.cluster.over(client)"
+        )
+    count = cores() if workers == ALL else checks.count("workers", workers, least=1)
+    if count == 1:
+        yield map
+        return
+    pool = ProcessPoolExecutor(count, mp_context=_Context(), initializer=_follow_parent)
+    try:
+        yield _Processes(pool, chunk)
+    finally:
+        pool.shutdown(cancel_futures=True)
+
+
+def unordered(run: MapLike) -> MapLike:
+    """The same map with results as they are ready, where it has a way to do that."""
+    return getattr(run, "unordered", run)
+
+
+def cores() -> int:
+    """Cores that this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
+class _Processes:
+    """A pool as a map: in order when called, as they are ready by `unordered`."""
+
+    def __init__(self, pool: ProcessPoolExecutor, chunk: int) -> None:
+        self._pool, self._chunk = pool, chunk
+
+    def __call__(self, function: Callable[[Any], Any], jobs: Iterable[Any]) -> Iterator[Any]:
+        with _deaths_told():
+            yield from self._pool.map(function, jobs, chunksize=self._chunk)
+
+    def unordered(self, function: Callable[[Any], Any], jobs: Iterable[Any]) -> Iterator[Any]:
+        """Results as they are ready."""
+        with _deaths_told():
+            for future in as_completed([self._pool.submit(function, job) for job in jobs]):
+                yield future.result()
+
+
+@contextmanager
+def _deaths_told() -> Iterator[None]:
+    try:
+        yield
+    except BrokenProcessPool:
+        raise WorkersError(
+            "workers: a process died, killed or out of memory; or the calling script is not "
+            'guarded by if __name__ == "__main__"'
+        ) from None
+
+
+class _Process(SpawnProcess):
+    """A process whose libraries find `ONE_THREAD` set when they are loaded."""
+
+    def start(self) -> None:
+        """Start it; it ignores the terminal's Ctrl-C, which is this process's to answer."""
+        with _environment(ONE_THREAD), _no_interrupts():
+            super().start()
+
+
+class _Context(SpawnContext):
+    Process = _Process
+
+
+@contextmanager
+def _environment(values: Mapping[str, str]) -> Iterator[None]:
+    before = {name: os.environ.get(name) for name in values}
+    os.environ.update(values)
+    try:
+        yield
+    finally:
+        for name, value in before.items():
+            if value is None:
+                del os.environ[name]
+            else:
+                os.environ[name] = value
+
+
+@contextmanager
+def _no_interrupts() -> Iterator[None]:
+    """Hold back Ctrl-C; a process started meanwhile never hears it."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+def _follow_parent() -> None:
+    """End with the parent: if it is killed the pool's queues alone would keep this one waiting."""
+    parent = parent_process()
+    if parent is None:
+        return
+
+    def wait() -> None:
+        parent.join()
+        os._exit(1)
+
+    threading.Thread(target=wait, daemon=True).start()

@@ -1,0 +1,1 @@
+"""The one report this began with, reproduced: tables, errata, programs, figures, claims."""

@@ -1,0 +1,72 @@
+"""From the catalogue's parameters to beams, families and resonances."""
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from compare.report.figures.catalogue import GAMMA, Figure
+from compare.report.figures.routes import Beam, Route, family
+from compare.report.tables import Row, rows
+from compare.tongues.boundaries import Family
+from hill import HillEquation, SteppedBeam, UniformBeam
+from hill.averaging import Resonance, first_order, modal
+
+# In the stepped beam's Omega this one and 2 omega_(B) come near each other and repel (T0 = 9, 16).
+THIRD = Resonance(1, 1, 1, 3)
+RESONANCES = (*first_order(3), THIRD)
+
+
+def beam_of(figure: Figure, **changes: float) -> Beam:
+    """The figure's beam, with some parameters changed."""
+    parameters: dict[str, Any] = {**figure.beam, "omega_L": figure.omega_L, **changes}
+    return SteppedBeam(**parameters) if figure.stepped else UniformBeam(**parameters)
+
+
+def family_of(figure: Figure, route: Route, eta: float = 0.0, g: float = 0.0) -> Family:
+    """Its equations along T0 at the tables' gamma, or along gamma at their T0."""
+    base = beam_of(figure, g=g) if g else beam_of(figure)
+    if figure.along == "T0":
+        return family(route, lambda T0: replace(base, T0=T0), lambda _: GAMMA, eta)
+    return family(route, lambda _: base, lambda gamma: gamma, eta)
+
+
+def resonance_named(name: str) -> Resonance:
+    """By its name in the tables, the two frequencies in either order."""
+    for resonance in RESONANCES:
+        if same(resonance.name, name):
+            return resonance
+    raise ValueError(f"resonance = {name!r}: not among those of three frequencies")
+
+
+def same(one: str, other: str) -> bool:
+    """Whether two names mean the same resonance."""
+    return one == other or ("+" in one and one.split(" + ") == other.split(" + ")[::-1])
+
+
+def at_resonance(name: str, equation: HillEquation) -> float:
+    """Omega of a resonance."""
+    return resonance_named(name).Omega(modal(equation)[0])
+
+
+def printed(figure: Figure) -> list[Row]:
+    """Printed rows of the figure's table, those of Table 3 without initial conditions."""
+    return [row for row in rows(figure.table) if not row.initial_conditions]
+
+
+def nearest(Omega: float, resonances: dict[str, float]) -> str:
+    """The resonance that a forcing frequency belongs to."""
+    return min(resonances, key=lambda name: abs(resonances[name] - Omega))
+
+
+def spread(count: int, detail: float, least: int = 5) -> int:
+    """How many points, at a share of the usual detail."""
+    return max(least, round(count * detail))
+
+
+def inner(count: int, marks: int) -> NDArray[np.intp]:
+    """Indices of some points of a curve, its ends apart; none of fewer than three."""
+    if count < 3:
+        return np.empty(0, int)
+    return np.unique(np.linspace(0, count - 1, marks + 2).round().astype(int)[1:-1])

@@ -1,0 +1,1 @@
+"""The report's own programs, run again from their data cards."""

@@ -1,0 +1,199 @@
+"""One printed row, held against both routes and against the program as it was run."""
+
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from compare.both_routes import compare_routes
+from compare.report.errata import is_open
+from compare.report.match import distance
+from compare.report.program.deck import constants
+from compare.report.program.listing import stab
+from compare.report.recover import HALF_UNIT, T_AS_RUN, Z_AS_RUN
+from compare.report.tables import Row, corrected
+from floquet.galerkin import galerkin
+from hill import HillEquation, characteristic
+from hill.determinant import finite, residues
+from hill.stability import Verdict, stability
+
+Complex = NDArray[np.complexfloating[Any, Any]]
+Cause = Literal["agrees", "truncation", "listing-slip", "misprint", "unexplained"]
+Method = Literal["taylor", "cvodes"]
+Found = tuple[float, Complex]
+"""T and z."""
+
+TERMS = 5
+"""Terms of the free longitudinal vibration, as many as the listing's S."""
+
+AS_RUN = (Z_AS_RUN, T_AS_RUN)
+
+# The report's equations, truncated like the report but at the exact lambda_n, pi and omega_L, miss
+# the deck's by its five-figure constants: 6.7e-5 at most over Tables 1 and 2, open rows apart.
+Z_REPORT = 1e-4
+# The same for T, times 1/Omega: 1.2e-4 at most (T2-22).
+T_REPORT = 1.5e-4
+
+
+@dataclass(frozen=True, eq=False)
+class Route:
+    """What one route finds: T with its error, z, P and the error of P's coefficients.
+
+    `error` is for the matrices as rounded, `data_error` what their rounding may add for the beam.
+    """
+
+    T: float
+    T_error: float
+    z: Complex
+    polynomial: NDArray[np.floating[Any]]
+    error: float
+    data_error: float
+    verdict: Verdict
+
+    @property
+    def stable(self) -> bool:
+        """Whether this route shows the row to be stable."""
+        return self.verdict == "stable"
+
+
+@dataclass(frozen=True, eq=False)
+class Outcome:
+    """A row and everything found about it; what renderers print.
+
+    Attributes
+    ----------
+    row : Row
+    as_run_T, as_run_z
+        The report's program at the recovered Omega: its truncation, its slips.
+    hill, floquet : Route
+        The two routes, converged.
+    difference : float
+        Largest difference between the coefficients of the two P(z).
+    matrices : float
+        Largest difference between the two routes' F, G and H, over their largest element.
+    routes_agree : bool
+        Whether `difference` is within the sum of the two errors, and the verdicts do not oppose
+        each other.
+    cause : str
+        Why the printed value differs: "agrees", "truncation", "listing-slip", "misprint" or
+        "unexplained".
+    expected : bool
+        False where `cause` is "unexplained" and the errata do not list the row as open.
+    verdict_printed, verdict : str
+        "stable" or "unstable"; `verdict` is "undecided" where neither route shows one, or one
+        route the opposite of the other.
+    note : str
+    """
+
+    row: Row
+    modes: int
+    as_run_T: float
+    as_run_z: Complex
+    hill: Route
+    floquet: Route
+    difference: float
+    matrices: float
+    routes_agree: bool
+    cause: Cause
+    expected: bool
+    verdict_printed: str
+    verdict: Verdict
+    note: str
+
+    @property
+    def flips(self) -> bool:
+        """Whether the printed verdict on stability is shown to be wrong."""
+        return self.verdict not in ("undecided", self.verdict_printed)
+
+
+def check(row: Row, *, method: Method = "taylor", modes: int = 2) -> Outcome:
+    """Compute one row by every route, and judge it.
+
+    Parameters
+    ----------
+    row : Row
+    method : {"taylor", "cvodes"}, optional
+        CasADi method of the time domain.
+    modes : int, optional
+        Bending modes of both routes. The cause is always judged with the report's two.
+    """
+    as_run = stab(constants(row.run["beam"]), row.case, row.Omega)
+    closed, quadrature = equation(row, modes), witness(row, modes)
+    x = compare_routes(closed, quadrature, method=method)
+    h, f = x.hill, x.floquet
+    hill = Route(h.T, h.T_error, h.z, h.polynomial, h.error, h.data_error, h.verdict)
+    floquet = Route(f.T, f.T_error, f.z, f.polynomial, f.error, f.data_error, f.verdict)
+    own = closed if modes == 2 else equation(row, 2)
+    judged = h if modes == 2 else characteristic(own)
+    cause, note = _cause(row, own, (judged.T, judged.z), (as_run.STAB1, as_run.roots))
+    return Outcome(
+        row=row,
+        modes=modes,
+        as_run_T=as_run.STAB1,
+        as_run_z=as_run.roots,
+        hill=hill,
+        floquet=floquet,
+        difference=x.difference,
+        matrices=x.matrices,
+        routes_agree=x.routes_agree,
+        cause=cause,
+        expected=cause != "unexplained" or is_open(row.id),
+        verdict_printed="stable" if row.T == 0.0 else "unstable",
+        verdict=x.verdict,
+        note=note if modes == 2 else f"{modes} modes; {note}".removesuffix("; "),
+    )
+
+
+def equation(row: Row, modes: int) -> HillEquation:
+    """The row's equation, matrices in closed form."""
+    return row.beam(modes).equation(row.Omega, row.gamma, **_damping(row))
+
+
+def witness(row: Row, modes: int) -> HillEquation:
+    """The row's equation, matrices by quadrature of the weak form."""
+    return galerkin(row.beam(modes), row.Omega, row.gamma, **_damping(row))
+
+
+def _damping(row: Row) -> dict[str, Any]:
+    return {"eta": row.run["eta"], "initial_terms": TERMS if row.initial_conditions else 0}
+
+
+def _cause(row: Row, own: HillEquation, converged: Found, as_run: Found) -> tuple[Cause, str]:
+    """The first explanation that brings the printed numbers back, from the simplest on."""
+    mended = corrected(row)
+    if _returns(row, converged):
+        lost = not _returns(mended, as_run)
+        return "agrees", "as run does not come back, see the errata" if lost else ""
+    explanations: list[tuple[Cause, Found, tuple[float, float]]] = [
+        ("agrees", converged, AS_RUN),
+        ("truncation", _truncated(own), (Z_REPORT, T_REPORT)),
+        ("listing-slip", as_run, AS_RUN),
+    ]
+    for cause, found, tolerances in explanations:
+        if _returns(row, found, tolerances):
+            return cause, ""
+    for cause, found, tolerances in explanations:
+        if mended != row and _returns(mended, found, tolerances):
+            return "misprint", f"as corrected: {cause}"
+    return "unexplained", "open, see the errata" if is_open(row.id) else ""
+
+
+def _truncated(eq: HillEquation) -> Found:
+    """T and z with the report's truncation, where its residues exist."""
+    polynomial = residues.polynomial(finite.blocks(eq), residues.report_rule(eq))
+    if polynomial is None:
+        return float("nan"), np.full(eq.n, np.nan, complex)
+    found = stability(polynomial, 0.0, eq.Omega, eq.damping)
+    return found.T, found.z
+
+
+def _returns(row: Row, found: Found, tolerances: tuple[float, float] = AS_RUN) -> bool:
+    """Whether the printed T, z and rounded Omega are the ones found."""
+    T, z = found
+    z_tolerance, T_tolerance = tolerances
+    # Table 3 is run at resonances, which its printed Omega and omega_L only name
+    rounded = row.table == 3 or abs(float(row.Omega_printed) - row.Omega) <= HALF_UNIT * (1 + 1e-6)
+    if not (rounded and abs(max(T, 0.0) - row.T) <= T_tolerance / row.Omega):
+        return False
+    return not row.z_printed or distance(z, row.z) <= z_tolerance

@@ -1,0 +1,1 @@
+"""The judge's own roots and indicators of a given P(z)."""

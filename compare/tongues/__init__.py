@@ -1,0 +1,1 @@
+"""Boundaries of instability: followed as curves, named, measured."""

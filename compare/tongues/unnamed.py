@@ -1,0 +1,79 @@
+"""Unstable regions of a chart that no tongue covers: nothing coloured stays without a word."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.ndimage import binary_dilation, label
+
+from compare.charts.result import Chart
+from compare.tongues.boundaries import Tongue
+from compare.tongues.on_chart import axes_of
+
+Float = NDArray[np.floating[Any]]
+
+# Cells by which a region may stick out of the tongues' edges, which are straight between stations.
+SLACK = 2
+
+# Smaller regions are a few cells on an edge: pieces of a boundary, not of an instability.
+SMALLEST = 4
+
+
+@dataclass(frozen=True)
+class Region:
+    """An unstable region of the grid.
+
+    Attributes
+    ----------
+    extent : tuple of (name, low, high)
+        Along each axis.
+    cells : int
+    T : float
+        The largest in it.
+    """
+
+    extent: tuple[tuple[str, float, float], ...]
+    cells: int
+    T: float
+
+
+def unnamed(chart: Chart, tongues: Sequence[Tongue]) -> tuple[Region, ...]:
+    """Connected unstable cells that are in no tongue, the largest T first.
+
+    Parameters
+    ----------
+    chart : Chart
+        Of Omega and one other parameter.
+    tongues : sequence of Tongue
+        Those that are known.
+    """
+    Omega, y = axes_of(chart)
+    # rows are y, columns Omega, whichever is drawn upwards
+    turned = chart.axes[0] is y
+    unstable = chart.unstable().T if turned else chart.unstable()
+    T = chart.T.T if turned else chart.T
+    covered = np.zeros(unstable.shape, bool)
+    for tongue in tongues:
+        rows = np.flatnonzero((y.points >= tongue.y[0]) & (y.points <= tongue.y[-1]))
+        low = np.interp(y.points[rows], tongue.y, tongue.lower)
+        high = np.interp(y.points[rows], tongue.y, tongue.upper)
+        x = Omega.points[None, :]
+        covered[rows] |= (x >= low[:, None]) & (x <= high[:, None])
+    covered = binary_dilation(covered, iterations=SLACK)
+    marks, count = label(unstable & ~covered)
+    found = []
+    for k in range(1, count + 1):
+        rows, columns = np.nonzero(marks == k)
+        if len(rows) >= SMALLEST:
+            extent = (
+                ("Omega", *_ends(Omega.points[columns])),
+                (y.name, *_ends(y.points[rows])),
+            )
+            found.append(Region(extent, len(rows), float(T[rows, columns].max())))
+    return tuple(sorted(found, key=lambda region: -region.T))
+
+
+def _ends(values: Float) -> tuple[float, float]:
+    return float(values.min()), float(values.max())

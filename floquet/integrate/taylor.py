@@ -1,0 +1,106 @@
+"""Taylor steps of a fixed order, the coefficients by recurrence in CasADi, folded over the time."""
+
+from dataclasses import dataclass
+from functools import lru_cache
+from math import ceil, factorial, log2
+from typing import Any
+
+import casadi as ca
+import numpy as np
+from numpy.typing import NDArray
+
+from floquet.integrate.ode import Parameters, Shape, symbols, terms
+from floquet.integrate.step_length import longest_step
+
+Float = NDArray[np.floating[Any]]
+
+# SX expands every scalar operation: quicker to run, slower to build. Measured: at this many of
+# them both take about as long for ten calls, and a build stays under 0.2 s.
+SX_OPERATIONS = 60_000
+
+# Steps in one fold, whose inputs are held side by side; and the most of them in one period.
+FOLDED = 1024
+MOST_STEPS = 1_000_000
+
+
+@dataclass(frozen=True)
+class Taylor:
+    """Taylor steps of fixed order, the coefficients by recurrence, folded over the time.
+
+    Parameters
+    ----------
+    order : int
+        Highest power of the step kept.
+    tolerance : float
+        What a step may leave out, of the solution's size; the default is below an ulp.
+    """
+
+    order: int = 24
+    tolerance: float = 1e-17
+
+    def __call__(self, p: Parameters, size: Shape, time: float) -> Float:
+        """Fundamental matrix at `time`."""
+        needed = ceil(time / longest_step(terms(p, size), p.C, self.order, self.tolerance))
+        if needed > MOST_STEPS:
+            raise ValueError(
+                f"Omega = {p.Omega:g}: too small, one period needs {needed:,} Taylor steps "
+                f"(at most {MOST_STEPS:,})"
+            )
+        steps = bucket(min(needed, FOLDED))
+        return self.march(p, size, time, steps, ceil(needed / steps))
+
+    def march(self, p: Parameters, size: Shape, time: float, steps: int, folds: int = 1) -> Float:
+        """The same with a given number of steps, `folds` times as many as one fold has."""
+        h = time / (folds * steps)
+        fold = folded(size, self.order, steps)
+        wide = [np.tile(value, (1, steps)) for value in p]
+        X = np.eye(2 * size.n)
+        for k in range(folds):
+            start = h * np.arange(k * steps, (k + 1) * steps)[None, :]
+            X = fold(X, start, np.full((1, steps), h), *wide)
+        return np.asarray(X)
+
+
+def bucket(steps: int) -> int:
+    """Round up to 2^k or 3 2^(k-1), so that few folds are built and kept."""
+    power = 1 << ceil(log2(max(steps, 2)))
+    return power * 3 // 4 if steps <= power * 3 // 4 else power
+
+
+@lru_cache(maxsize=64)
+def folded(size: Shape, order: int, steps: int) -> Any:
+    """`steps` steps as one CasADi function: inputs other than the state are side by side."""
+    return _step(size, order).fold(steps)
+
+
+@lru_cache(maxsize=64)
+def _step(size: Shape, order: int) -> Any:
+    """One step of length h from (Q, V) at tau, as a CasADi function."""
+    n = size.n
+    operations = n * n * order * (order + 4 * n) * (2 + size.terms)
+    kind: Any = ca.SX if operations < SX_OPERATIONS else ca.MX
+    p = symbols(kind, size)
+    X, tau, h = kind.sym("X", 2 * n, 2 * n), kind.sym("tau"), kind.sym("h")
+
+    cosines = [(p.gamma * p.G, _cosine(p.Omega, tau, h, order))]
+    for s, H_s in enumerate(ca.horzsplit(p.H, n) if size.terms else [], start=1):
+        cosines.append((H_s, _cosine(s * p.omega_L, tau, h, order)))
+
+    # q(tau + x h) = sum_k a_k x^k, so q'' = -C q' - [F + sum cos] q reads, power by power,
+    # (k+1)(k+2) a_(k+2) = -h (k+1) C a_(k+1) - h^2 (F a_k + sum_j cos_j a_(k-j))
+    a = [X[:n, :], h * X[n:, :]]
+    for k in range(order - 1):
+        force = p.F @ a[k]
+        for matrix, cosine in cosines:
+            force += matrix @ sum(cosine[j] * a[k - j] for j in range(k + 1))
+        a.append(-(h * (k + 1) * (p.C @ a[k + 1]) + h * h * force) / ((k + 1) * (k + 2)))
+    Q = sum(reversed(a))
+    V = sum(k * a[k] for k in reversed(range(1, order + 1))) / h
+    return ca.Function("step", [X, tau, h, *p], [ca.vertcat(Q, V)])
+
+
+def _cosine(frequency: Any, tau: Any, h: Any, order: int) -> list[Any]:
+    """Taylor coefficients of cos(frequency (tau + x h)) in x."""
+    c, s = ca.cos(frequency * tau), ca.sin(frequency * tau)
+    turn = [c, -s, -c, s]
+    return [turn[j % 4] * (frequency * h) ** j / factorial(j) for j in range(order)]

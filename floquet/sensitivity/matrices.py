@@ -1,0 +1,127 @@
+"""A matrix whose eigenvalues are z, or the multipliers, and what moves its elements.
+
+Three ways to it, as in :mod:`floquet.monodromy`: half a period or a whole one in
+``u = exp(eta tau/2) q``, and the whole period in q as it stands. Gradients are flat:
+``Omega, gamma, eta, F, G, H``, row by row.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from floquet.integrate.ode import shape, values
+from floquet.integrate.taylor import Taylor
+from floquet.period import second_half
+from floquet.sensitivity.tape import Slopes, Tape, tape
+from hill import HillEquation
+
+Float = NDArray[np.floating[Any]]
+Pull = Callable[[Float], tuple[Float, Float]]
+
+
+@dataclass(frozen=True, eq=False)
+class Run:
+    """A matrix and its gradients.
+
+    Attributes
+    ----------
+    matrix : (m, m) float ndarray
+        A, or the monodromy matrix with a damping matrix.
+    scale : (m, m) float ndarray
+        Size of the terms that each element sums.
+    pull : callable
+        For a seed of that shape the flat gradient of ``sum(seed * matrix)``, and the sum of the
+        moduli of its terms.
+    """
+
+    matrix: Float
+    scale: Float
+    pull: Pull
+
+
+def half_period(equation: HillEquation, method: Taylor) -> Run:
+    """A of Phi = S U^-1 S U, U over half a period in u."""
+    t, n = _tape(equation, method, 0.5, undamped=True), len(equation.F)
+    S = np.repeat([1.0, -1.0], [n, n])
+    Phi, scale = second_half(t.end)
+    first = S[:, None] * np.linalg.inv(t.end) * S
+
+    def pull(seed: Float) -> tuple[Float, Float]:
+        # dPhi = S U^-1 S dU - S U^-1 dU U^-1 S U, and with X = S U^-1 S the last is X S dU S Phi
+        back = first.T @ _corner(seed)
+        return _flat(t, equation, back - S[:, None] * (back @ Phi.T) * S, in_u=True)
+
+    return Run(Phi[:n, :n], scale[:n, :n], pull)
+
+
+def whole_period(equation: HillEquation, method: Taylor) -> Run:
+    """A of the whole period in u."""
+    t, n = _tape(equation, method, 1.0, undamped=True), len(equation.F)
+    block = t.end[:n, :n]
+    return Run(block, np.abs(block), lambda seed: _flat(t, equation, _corner(seed), in_u=True))
+
+
+def as_it_stands(equation: HillEquation, method: Taylor) -> Run:
+    """A from the whole period in q: u(0) = I and u'(0) = 0 are q(0) = I and q'(0) = -eta/2 I."""
+    t, n, eta = _tape(equation, method, 1.0), len(equation.F), equation.damping
+    swell = float(np.exp(0.5 * eta * t.time))
+    beside = swell * t.end[:n, n:]
+    A = swell * t.end[:n, :n] - 0.5 * eta * beside
+
+    def pull(seed: Float) -> tuple[Float, Float]:
+        found, moduli = _flat(t, equation, _corner(swell * seed, -0.5 * eta * swell * seed))
+        for k, term in (
+            (0, -0.5 * eta * t.time / equation.Omega * A),
+            (2, 0.5 * (t.time * A - beside)),
+        ):
+            found[k] += np.sum(seed * term)
+            moduli[k] += np.sum(np.abs(seed * term))
+        return found, moduli
+
+    return Run(A, np.abs(A), pull)
+
+
+def multipliers(equation: HillEquation, method: Taylor) -> Run:
+    """The monodromy matrix itself, for a damping matrix."""
+    t = _tape(equation, method, 1.0)
+    return Run(t.end, np.abs(t.end), lambda seed: _flat(t, equation, seed))
+
+
+def _tape(equation: HillEquation, method: Taylor, share: float, undamped: bool = False) -> Tape:
+    p = values(equation, undamped=undamped)
+    return tape(method, p, shape(equation), share * 2.0 * np.pi / equation.Omega)
+
+
+def _corner(left: Float, right: Float | None = None) -> Float:
+    """A seed of the first n rows, as one of all 2n."""
+    n = len(left)
+    whole = np.zeros((2 * n, 2 * n))
+    whole[:n, :n] = left
+    if right is not None:
+        whole[:n, n:] = right
+    return whole
+
+
+def _flat(
+    t: Tape, equation: HillEquation, seed: Float, *, in_u: bool = False
+) -> tuple[Float, Float]:
+    """Flat gradient of ``sum(seed * t.end)`` and the moduli of its terms."""
+    n, Omega = t.size.n, equation.Omega
+    # the period follows Omega, and so does omega_L: H without a common period has no z
+    ratio = equation.ratio if equation.H else 0
+
+    def row(s: Slopes, time: float, eta: float) -> Float:
+        C = s.of.C if np.ndim(equation.eta) > 0 else np.trace(s.of.C)
+        damping = eta * np.trace(s.of.F) if in_u else C
+        H = s.of.H.reshape(n, t.size.terms, n).swapaxes(0, 1)
+        numbers = (s.of.Omega + ratio * s.of.omega_L + time * s.time, s.of.gamma)
+        return np.concatenate([np.ravel(x) for x in (*numbers, damping, s.of.F, s.of.G, H)])
+
+    found, moduli = t.pull(seed)
+    time = t.time / Omega
+    # in u the stiffness is F - eta^2/4
+    eta = 0.5 * equation.damping if in_u else 0.0
+    return row(found, -time, -eta), row(moduli, time, abs(eta))

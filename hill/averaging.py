@@ -1,0 +1,102 @@
+"""Where parametric resonances are to be looked for, and how wide first-order theory makes them.
+
+A guess to start from, not a result: the boundaries themselves come from P.
+"""
+
+from dataclasses import dataclass
+from itertools import combinations_with_replacement
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hill import HillEquation
+
+Complex = NDArray[np.complexfloating[Any, Any]]
+
+# A frequency with more than this share of imaginary part belongs to a beam already unstable.
+REAL = 1e-9
+
+
+@dataclass(frozen=True)
+class Resonance:
+    """Omega = 2 omega_i/k, (7.1.3), or (omega_i +- omega_j)/k, (7.1.4).
+
+    Attributes
+    ----------
+    i, j : int
+        Natural frequencies in ascending order, 0 for omega_(B); i >= j.
+    sign : {1, -1}
+    order : int
+        k.
+    """
+
+    i: int
+    j: int
+    sign: int = 1
+    order: int = 1
+
+    @property
+    def type(self) -> str:
+        """Type I or II of section 7.1."""
+        return "I" if self.i == self.j else "II"
+
+    @property
+    def indicator(self) -> str:
+        """What changes sign on its undamped boundary: P(1), P(-1) or the discriminant of P."""
+        if self.i != self.j:
+            return "discriminant"
+        return "-1" if self.order % 2 else "+1"
+
+    @property
+    def name(self) -> str:
+        """As the tables print it: "2 omega_(B)", "omega_(B) + omega_(1)"."""
+        first, second = _name(self.i), _name(self.j)
+        text = f"2 {first}" if self.i == self.j else f"{first} {'+-'[self.sign < 0]} {second}"
+        return text if self.order == 1 else f"({text})/{self.order}"
+
+    def Omega(self, frequencies: Complex) -> float:
+        """The resonance, given the natural frequencies; nan where they are not real."""
+        first, second = complex(frequencies[self.i]), complex(frequencies[self.j])
+        if max(abs(first.imag), abs(second.imag)) > REAL * abs(first):
+            return float("nan")
+        return (first.real + self.sign * second.real) / self.order
+
+
+def _name(i: int) -> str:
+    return f"omega_({i or 'B'})"
+
+
+def first_order(n: int) -> tuple[Resonance, ...]:
+    """Every resonance of order 1 of n coordinates."""
+    pairs = [(i, j) for j, i in combinations_with_replacement(range(n), 2)]
+    differences = [Resonance(i, j, -1) for i, j in pairs if i > j]
+    return tuple([Resonance(i, j) for i, j in pairs] + differences)
+
+
+def modal(equation: HillEquation) -> tuple[Complex, Complex]:
+    """Natural frequencies, ascending, and G in the modes of F."""
+    squares, modes = np.linalg.eig(equation.F)
+    frequencies = np.sqrt(squares.astype(complex))
+    order = np.lexsort((frequencies.imag, frequencies.real))
+    modes = modes[:, order]
+    return frequencies[order], np.linalg.solve(modes, equation.G @ modes)
+
+
+def half_width(resonance: Resonance, equation: HillEquation, *, damped: bool = True) -> float:
+    """Hsu's half width in Omega, to first order in gamma; 0 where there is no instability.
+
+    gamma |G_ii|/(2 omega_i) at 2 omega_i; (gamma/2) sqrt(+-G_ij G_ji/(omega_i omega_j)) at the sum
+    or the difference; damping eta takes it to sqrt(width**2 - eta**2), unless `damped` is false.
+    Orders above 1 are narrower.
+
+    References
+    ----------
+    Hsu, On the parametric excitation of a dynamic system having multiple degrees of freedom,
+    Journal of Applied Mechanics 30 (1963).
+    """
+    frequencies, G = modal(equation)
+    i, j = resonance.i, resonance.j
+    product = resonance.sign * (G[i, j] * G[j, i] / (frequencies[i] * frequencies[j])).real
+    square = 0.25 * equation.gamma**2 * product - (equation.damping**2 if damped else 0.0)
+    return float(np.sqrt(square)) if square > 0.0 else 0.0

@@ -1,0 +1,1 @@
+"""The infinite determinant: finite ones, their limit, many at once, residues, rounding."""
