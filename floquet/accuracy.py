@@ -35,7 +35,9 @@ class Known:
     matrix_error: Float
 
 
-def known(A: Float, check: Float, scale: Float, ulps: float, floor: float) -> Known:
+def known(
+    A: Float, check: Float, scale: Float, ulps: float, floor: float, given: Float | None = None
+) -> Known:
     """What two runs know of A, each element of which sums terms of size `scale`.
 
     Where the runs differ by chance in nothing, they may still both be off: the largest difference
@@ -50,6 +52,8 @@ def known(A: Float, check: Float, scale: Float, ulps: float, floor: float) -> Kn
         Rounding of a run, in ulps of `scale`.
     floor : float
         What a run may be off without the other's showing it, over `scale`.
+    given : (n, n) ndarray, optional
+        What the run's data were off already, in A.
 
     Raises
     ------
@@ -66,6 +70,9 @@ def known(A: Float, check: Float, scale: Float, ulps: float, floor: float) -> Kn
         own = floor + MODEL * EPS * ulps
         errors = (SAFETY * apart + own) * sensitivity + rounding + also
         matrix_error = SAFETY * np.maximum(np.abs(A - check), apart * scale) + own * scale
+        if given is not None:
+            errors = errors + characteristic_polynomial(A, given)[1]
+            matrix_error = matrix_error + given
     if not (np.all(np.isfinite(errors)) and np.all(np.isfinite(matrix_error))):
         raise OverflowError(OVERFLOW)
     return Known(p, errors, matrix_error)

@@ -28,6 +28,8 @@ from hill import HillEquation
 
 Complex = NDArray[np.complexfloating[Any]]
 Float = NDArray[np.floating[Any]]
+EPS = float(np.finfo(float).eps)
+
 # The terms that S U^-1 S U sums are this much larger than 1, 3 to 5 for the report's beam with 2 to
 # 12 modes, twice the growth over a period where there is one. Beyond, the whole period loses less.
 WELL = 100.0
@@ -164,7 +166,14 @@ def monodromy(equation: HillEquation, *, method: str = "taylor") -> Monodromy:
         scale[:n, :n] = np.maximum(scale[:n, :n], np.abs(Phi_u[:n, n:]) * fastest)
     A = Phi_u[:n, :n]
     ulps = 8.0 + rate(terms(undamped, size), undamped.C) * period
-    found = known(A, _undamp(whole, eta, period)[:n, :n], scale[:n, :n], ulps, how.floor)
+    found = known(
+        A,
+        _undamp(whole, eta, period)[:n, :n],
+        scale[:n, :n],
+        ulps,
+        how.floor,
+        _by_subtraction(equation, scale) if eta else None,
+    )
     z = eigenvalues(A)
     root = np.sqrt(z - 1.0) * np.sqrt(z + 1.0)
     outer = np.where(np.abs(z + root) >= np.abs(z - root), z + root, z - root)
@@ -225,6 +234,17 @@ def _damping_matrix(equation: HillEquation, how: Method, checked: Float, method:
         method=method,
         half_period=False,
     )
+
+
+def _by_subtraction(e: HillEquation, scale: Float) -> Float:
+    """What the rounding of F - eta^2/4 adds to A, to first order.
+
+    By Duhamel's formula a change dF moves A by the integral over the period of B dF A; `scale` has
+    the sizes of A and B.
+    """
+    n, quarter = e.n, 0.25 * e.damping**2
+    rounded = EPS * (np.abs(np.diag(e.F)) + quarter)
+    return np.asarray(e.period * scale[:n, n:] @ (rounded[:, None] * scale[:n, :n]))
 
 
 def _data(e: HillEquation) -> float:

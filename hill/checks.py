@@ -58,8 +58,10 @@ def count(name: str, value: Any, *, least: int, most: int | None = None) -> int:
     return int(value)
 
 
-def square(name: str, value: ArrayLike, *, n: int | None = None) -> NDArray[np.float64]:
-    """Return `value` as a read-only finite n-by-n float array."""
+def square(
+    name: str, value: ArrayLike, *, n: int | None = None, like: str = "F"
+) -> NDArray[np.float64]:
+    """Return `value` as a read-only finite n-by-n float array; `like` names what has that size."""
     try:
         raw = np.asarray(value)
         if np.ma.is_masked(value):
@@ -74,7 +76,7 @@ def square(name: str, value: ArrayLike, *, n: int | None = None) -> NDArray[np.f
     if matrix.ndim != 2 or matrix.shape[0] != matrix.shape[1] or matrix.size == 0:
         raise ValueError(f"{name} has shape {matrix.shape}: must be square and not empty")
     if n is not None and matrix.shape[0] != n:
-        raise ValueError(f"{name} has shape {matrix.shape}: must be ({n}, {n}) like F")
+        raise ValueError(f"{name} has shape {matrix.shape}: must be ({n}, {n}) like {like}")
     if not np.all(np.isfinite(matrix)):
         i, j = np.argwhere(~np.isfinite(matrix))[0]
         raise ValueError(f"{name}[{i}, {j}] = {matrix[i, j]}: every element must be finite")

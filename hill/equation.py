@@ -3,7 +3,7 @@
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import cast
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -126,6 +126,13 @@ class HillEquation:
     def period(self) -> float:
         """Common period of all coefficients, 2 pi / Omega, in units of ``1 / omega_1``."""
         return 2.0 * math.pi / self.Omega
+
+    def general(self) -> Any:
+        """The same system as a `PeriodicEquation`."""
+        # that module knows this one
+        from hill.periodic import general
+
+        return general(self)
 
     @property
     def damping(self) -> float:
