@@ -36,7 +36,12 @@ class Known:
 
 
 def known(
-    A: Float, check: Float, scale: Float, ulps: float, floor: float, given: Float | None = None
+    A: Float,
+    check: Float,
+    scale: Float,
+    ulps: float,
+    floor: float,
+    given: tuple[Float, float] | None = None,
 ) -> Known:
     """What two runs know of A, each element of which sums terms of size `scale`.
 
@@ -52,8 +57,8 @@ def known(
         Rounding of a run, in ulps of `scale`.
     floor : float
         What a run may be off without the other's showing it, over `scale`.
-    given : (n, n) ndarray, optional
-        What the run's data were off already, in A.
+    given : (n, n) ndarray and float, optional
+        What the run's data were off already: in A, and in P over its size; whichever says less.
 
     Raises
     ------
@@ -71,8 +76,10 @@ def known(
         errors = (SAFETY * apart + own) * sensitivity + rounding + also
         matrix_error = SAFETY * np.maximum(np.abs(A - check), apart * scale) + own * scale
         if given is not None:
-            errors = errors + characteristic_polynomial(A, given)[1]
-            matrix_error = matrix_error + given
+            alone, share = given
+            of_P = share * np.sum(np.abs(p))
+            errors[1:] += np.minimum(characteristic_polynomial(A, alone)[1], of_P)[1:]
+            matrix_error = matrix_error + np.minimum(alone, share * scale)
     if not (np.all(np.isfinite(errors)) and np.all(np.isfinite(matrix_error))):
         raise OverflowError(OVERFLOW)
     return Known(p, errors, matrix_error)
@@ -116,6 +123,21 @@ def moved_by_data(F: Float, x: Float, shift: Float) -> tuple[Float, Float]:
     w = np.sqrt(np.abs(values * x[:, None] - shift[:, None]))
     moved = np.pi / np.maximum(w, 0.5 / np.pi)
     return np.sum(moved * (of_F + of_shift), axis=1), np.sum(moved * of_every, axis=1)
+
+
+def moved_by_diagonal(F: Float, change: Float, shift: float, Omega: float) -> float:
+    """How far P moves, over its size, with the diagonal of F - shift, as `moved_by_data`.
+
+    Infinite where F is defective.
+    """
+    values, right = np.linalg.eig(F)
+    try:
+        left = np.abs(np.linalg.inv(right))
+    except np.linalg.LinAlgError:
+        return float("inf")
+    w = np.sqrt(np.abs(values - shift)) / Omega
+    of_change = left @ (change[:, None] * np.abs(right)) / Omega**2
+    return float(np.sum(np.pi / np.maximum(w, 0.5 / np.pi) * np.diag(of_change)))
 
 
 def amplitudes(Phi: Float, fastest: float) -> Float:
