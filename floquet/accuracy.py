@@ -1,26 +1,23 @@
 """How well two integrations of the same equation know its matrix and characteristic polynomial."""
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from floquet.arrays import EPS, Float
 from floquet.charpoly import characteristic_polynomial
 
-Float = NDArray[np.floating[Any]]
-EPS = float(np.finfo(float).eps)
 OVERFLOW = "the solution grows beyond what a float can hold within one period"
 
 # On the difference of two runs. With 4 one of 1,569 hostile systems of `benchmarks.honesty` was off
 # by 1.4 of its bound: two runs that were alike by chance.
 SAFETY = 8.0
 # On the ulps that a run may lose beside, which such a chance does not touch.
-MODEL = 3.0
+ROUNDING_SAFETY = 3.0
 
 
 @dataclass(frozen=True, eq=False)
-class Known:
+class Bounded:
     """The characteristic polynomial of a matrix, and bounds on the errors of both.
 
     Attributes
@@ -35,14 +32,14 @@ class Known:
     matrix_error: Float
 
 
-def known(
+def bounded(
     A: Float,
     check: Float,
     scale: Float,
     ulps: float,
     floor: float,
     given: tuple[Float, float] | None = None,
-) -> Known:
+) -> Bounded:
     """What two runs know of A, each element of which sums terms of size `scale`.
 
     Where the runs differ by chance in nothing, they may still both be off: the largest difference
@@ -72,7 +69,7 @@ def known(
         except OverflowError:
             raise OverflowError(OVERFLOW) from None
         apart = _share(np.abs(p - other), sensitivity)
-        own = floor + MODEL * EPS * ulps
+        own = floor + ROUNDING_SAFETY * EPS * ulps
         errors = (SAFETY * apart + own) * sensitivity + rounding + also
         matrix_error = SAFETY * np.maximum(np.abs(A - check), apart * scale) + own * scale
         if given is not None:
@@ -82,7 +79,7 @@ def known(
             matrix_error = matrix_error + np.minimum(alone, share * scale)
     if not (np.all(np.isfinite(errors)) and np.all(np.isfinite(matrix_error))):
         raise OverflowError(OVERFLOW)
-    return Known(p, errors, matrix_error)
+    return Bounded(p, errors, matrix_error)
 
 
 def _share(difference: Float, scale: Float) -> float:

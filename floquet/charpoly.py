@@ -4,17 +4,14 @@ from math import frexp
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-Float = NDArray[np.floating[Any]]
+from floquet.arrays import EPS, Float
 
-BY_MINORS = 3
+MAX_MINORS = 3
 """Up to this size the minors are written out; `floquet/batch/kernel.c` has the same."""
 
 
-EPS = float(np.finfo(float).eps)
-
-EXACT = 12
+MAX_EXACT = 12
 """Up to this size one matrix is dealt with in whole numbers: 10 ms, n^4 products."""
 
 # The eigenvalues of LAPACK are those of a matrix within a modest multiple of n ulps, of its norm.
@@ -26,7 +23,7 @@ NORMWISE = 0.5
 def characteristic_polynomial(A: Float, scale: Float) -> tuple[Float, Float, Float]:
     """Monic det(zI - A), and how far its coefficients move.
 
-    d p_(k+1) = -tr(B_k dA), where sum_k B_k z^(n-1-k) is the adjugate of zI - A. Up to `EXACT`
+    d p_(k+1) = -tr(B_k dA), where sum_k B_k z^(n-1-k) is the adjugate of zI - A. Up to `MAX_EXACT`
     rows p and B are those of the floats A exactly, rounded once: Leverrier and Faddeev's recursion
     in whole numbers. Beyond, p is multiplied out from the eigenvalues.
 
@@ -50,7 +47,7 @@ def characteristic_polynomial(A: Float, scale: Float) -> tuple[Float, Float, Flo
     """
     n = len(A)
     p, sensitivity, rounding = np.ones(n + 1), np.zeros(n + 1), np.zeros(n + 1)
-    if n <= EXACT:
+    if n <= MAX_EXACT:
         whole, bits = _whole_numbers(A)
         one = np.array([[int(i == j) for j in range(n)] for i in range(n)], dtype=object)
         B, c = one, 1
@@ -97,13 +94,13 @@ def characteristic_polynomials(A: Float, scale: Float) -> tuple[Float, Float]:
         ulps of rounding on the way to it, over these ulps.
     """
     k, n = A.shape[:2]
-    P = _minors(A) if n <= BY_MINORS else _from_eigenvalues(A)
+    P = _minors(A) if n <= MAX_MINORS else _from_eigenvalues(A)
     B, largest = np.broadcast_to(np.eye(n), A.shape), np.zeros(k)
     # a minor's rounding is of the size of its products, whatever they cancel
-    summed = _products(np.abs(A)) if n == BY_MINORS else np.zeros(k)
+    summed = _products(np.abs(A)) if n == MAX_MINORS else np.zeros(k)
     for j in range(n):
         moved = np.einsum("kij,kji->k", np.abs(B), scale)
-        if n > BY_MINORS:
+        if n > MAX_MINORS:
             moved = moved + NORMWISE * n * np.linalg.norm(A, axis=(1, 2)) * np.linalg.norm(
                 B, axis=(1, 2)
             )

@@ -1,15 +1,10 @@
 """Discs that hold the eigenvalues of a matrix which is known to within an error."""
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-Complex = NDArray[np.complexfloating[Any]]
-Float = NDArray[np.floating[Any]]
-Bool = NDArray[np.bool_]
-EPS = float(np.finfo(float).eps)
+from floquet.arrays import EPS, Bool, Complex, Float
 
 RADII = 2.0 ** np.arange(-54.0, 3.5, 0.5)
 """Radii tried about an eigenvalue, in units of 1 + its modulus."""
@@ -39,13 +34,13 @@ class Discs:
         return (self.centre.imag == 0.0) & (np.sum(self.together, axis=1) == 1)
 
 
-def eigenvalues(A: Float) -> Complex:
+def sorted_eigenvalues(A: Float) -> Complex:
     """Computed eigenvalues, by descending real part."""
     values = np.linalg.eigvals(A).astype(complex)
     return values[np.lexsort((values.imag, -values.real))]
 
 
-def from_matrix(A: Float, error: Float) -> Discs:
+def discs_from_matrix(A: Float, error: Float) -> Discs:
     """Discs from the matrix itself: Gershgorin's, in the basis of its eigenvectors.
 
     With X the computed eigenvectors and W their inverse, |W| (|A X - X L| + error |X|) bounds what
@@ -77,7 +72,7 @@ def from_matrix(A: Float, error: Float) -> Discs:
     return Discs(values, radius, _touching(values, radius))
 
 
-def from_polynomial(values: Complex, p: Float, errors: Float) -> Discs:
+def discs_from_polynomial(values: Complex, p: Float, errors: Float) -> Discs:
     """Discs about eigenvalues from the characteristic polynomial and the error of each coefficient.
 
     Where on a circle about a root the computed polynomial exceeds all that its error can amount to,

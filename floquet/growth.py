@@ -2,16 +2,14 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from floquet.arrays import EPS, Float
 from floquet.eigenvalues import Discs
 
-Float = NDArray[np.floating[Any]]
 Verdict = Literal["stable", "unstable", "undecided"]
-EPS = float(np.finfo(float).eps)
 
 
 @dataclass(frozen=True)
@@ -23,7 +21,9 @@ class Growth:
     verdict: Verdict
 
 
-def from_z(families: Sequence[Discs], p: Float, errors: Float, period: float, eta: float) -> Growth:
+def growth_from_z(
+    families: Sequence[Discs], p: Float, errors: Float, period: float, eta: float
+) -> Growth:
     """T = (2/period) ln max |mu| - eta of mu = z +- (z^2 - 1)^(1/2), Eq. (7.1.1).
 
     Parameters
@@ -50,7 +50,7 @@ def from_z(families: Sequence[Discs], p: Float, errors: Float, period: float, et
     return _growth(value, least, most, period, eta, bounded=inside, beyond=beyond)
 
 
-def from_multipliers(families: Sequence[Discs], period: float, mean: float) -> Growth:
+def growth_from_multipliers(families: Sequence[Discs], period: float, mean: float) -> Growth:
     """T = (2/period) ln max |mu|, the damping being in mu; `mean` is the mean of all ln |mu|."""
     least, most = mean, np.inf
     with np.errstate(divide="ignore"):

@@ -12,34 +12,31 @@ whole period is integrated too where the solution grows so much that U cannot be
 """
 
 from dataclasses import dataclass
-from fractions import Fraction
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from floquet.accuracy import OVERFLOW, amplitudes, known, moved_by_data, moved_by_diagonal
-from floquet.eigenvalues import eigenvalues, from_matrix, from_polynomial
-from floquet.growth import Verdict, from_multipliers, from_z
+from floquet.accuracy import (
+    OVERFLOW,
+    Bounded,
+    amplitudes,
+    bounded,
+)
+from floquet.arrays import Complex, Float
+from floquet.data_errors import data_share, subtraction_error
+from floquet.eigenvalues import Discs, discs_from_matrix, discs_from_polynomial, sorted_eigenvalues
+from floquet.growth import Verdict, growth_from_multipliers, growth_from_z
 from floquet.integrate.methods import METHODS, Method
-from floquet.integrate.ode import Parameters, shape, terms, values
-from floquet.integrate.step_length import perron, rate
+from floquet.integrate.ode import Parameters, parameter_values, shape, terms
+from floquet.integrate.step_length import fastest_rate, perron_root
 from floquet.integrate.taylor import Taylor
 from hill import HillEquation
 
-Complex = NDArray[np.complexfloating[Any]]
-Float = NDArray[np.floating[Any]]
-
 # The terms that S U^-1 S U sums are this much larger than 1, 3 to 5 for the report's beam with 2 to
 # 12 modes, twice the growth over a period where there is one. Beyond, the whole period loses less.
-WELL = 100.0
-
-# By its modes a change of F moves P so far without pulsation. With it, it moved P three times as
-# far in one of 9,849 systems (`benchmarks.honesty --seed 40`); in the others the rest covered it.
-MODES = 4.0
+MAX_TERM_GROWTH = 100.0
 
 # exp of it is still a float.
-MOST_DECAY = 700.0
+MAX_DECAY_EXPONENT = 700.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -137,19 +134,19 @@ def monodromy(equation: HillEquation, *, method: str = "taylor") -> Monodromy:
         raise ValueError(f"method = {method!r}: must be one of {', '.join(METHODS)}")
     how = METHODS[method]
     size, period = shape(equation), 2.0 * np.pi / equation.Omega
-    plain = values(equation)
+    plain = parameter_values(equation)
     if how.diverges:
         _finite(Taylor()(plain, size, period))
     if np.ndim(equation.eta) > 0:
         return _damping_matrix(equation, how, _finite(how.check(plain, size, period)), method)
 
     eta, n = equation.damping, size.n
-    if abs(eta) * 0.5 * period > MOST_DECAY:
+    if abs(eta) * 0.5 * period > MAX_DECAY_EXPONENT:
         raise OverflowError(
             f"eta = {eta:g}, Omega = {equation.Omega:g}: the decay over one period, "
             "exp(-pi eta/Omega), exceeds what a float can hold"
         )
-    undamped = values(equation, undamped=True)
+    undamped = parameter_values(equation, undamped=True)
     if 0.5 * eta * period > how.most_decay:
         whole = _damp(_finite(how.check(undamped, size, period)), eta, period)
     else:
@@ -157,7 +154,7 @@ def monodromy(equation: HillEquation, *, method: str = "taylor") -> Monodromy:
     U = _finite(how.run(undamped, size, 0.5 * period))
     try:
         Phi_u, scale = second_half(U)
-        half = bool(np.all(np.isfinite(scale)) and perron(scale) < WELL)
+        half = bool(np.all(np.isfinite(scale)) and perron_root(scale) < MAX_TERM_GROWTH)
     except np.linalg.LinAlgError:  # singular to rounding
         scale, half = np.zeros_like(U), False
     if not half:
@@ -165,33 +162,32 @@ def monodromy(equation: HillEquation, *, method: str = "taylor") -> Monodromy:
         # growth in the first half may not show at the end
         scale = np.maximum(np.abs(Phi_u), np.where(np.isfinite(scale), scale, 0.0))
         # nor an amplitude whose phase is near a zero, of columns or of rows
-        fastest = rate(terms(undamped, size), undamped.C)
+        fastest = fastest_rate(terms(undamped, size), undamped.C)
         scale[:n, :n] = np.maximum(scale[:n, :n], np.abs(Phi_u[n:, :n]) / fastest)
         scale[:n, :n] = np.maximum(scale[:n, :n], np.abs(Phi_u[:n, n:]) * fastest)
     A = Phi_u[:n, :n]
-    ulps = 8.0 + rate(terms(undamped, size), undamped.C) * period
-    found = known(
+    ulps = 8.0 + fastest_rate(terms(undamped, size), undamped.C) * period
+    found = bounded(
         A,
         _undamp(whole, eta, period)[:n, :n],
         scale[:n, :n],
         ulps,
         how.floor,
-        _by_subtraction(equation, scale) if eta else None,
+        subtraction_error(equation, scale) if eta else None,
     )
-    z = eigenvalues(A)
+    z = sorted_eigenvalues(A)
     root = np.sqrt(z - 1.0) * np.sqrt(z + 1.0)
     outer = np.where(np.abs(z + root) >= np.abs(z - root), z + root, z - root)
     pairs = np.concatenate([outer, 1.0 / outer])  # z - root cancels where z is large
     decay = np.exp(-0.5 * eta * period)
-    families = from_polynomial(z, found.p, found.errors), from_matrix(A, found.matrix_error)
-    growth = from_z(families, found.p, found.errors, period, eta)
+    growth = growth_from_z(_discs(z, A, found), found.p, found.errors, period, eta)
     return Monodromy(
         matrix=_damp(Phi_u, eta, period),
         multipliers=_descending(decay * pairs),
         polynomial=found.p,
         errors=found.errors,
         matrix_error=found.matrix_error,
-        data_error=_data(equation) * float(np.sum(np.abs(found.p))),
+        data_error=data_share(equation) * float(np.sum(np.abs(found.p))),
         z=z,
         T=growth.T,
         T_error=growth.T_error,
@@ -213,22 +209,22 @@ def second_half(U: Float) -> tuple[Float, Float]:
 
 def _damping_matrix(equation: HillEquation, how: Method, checked: Float, method: str) -> Monodromy:
     """A damping matrix: the whole period, and the multipliers as they are."""
-    p, size = values(equation), shape(equation)
+    p, size = parameter_values(equation), shape(equation)
     period = 2.0 * np.pi / equation.Omega
     Phi = _finite(how.run(p, size, period))
-    ulps = 8.0 + rate(terms(p, size), p.C) * period
-    found = known(Phi, checked, amplitudes(Phi, rate(terms(p, size), p.C)), ulps, how.floor)
-    mu = eigenvalues(Phi)
-    families = from_polynomial(mu, found.p, found.errors), from_matrix(Phi, found.matrix_error)
+    fastest = fastest_rate(terms(p, size), p.C)
+    found = bounded(Phi, checked, amplitudes(Phi, fastest), 8.0 + fastest * period, how.floor)
+    mu = sorted_eigenvalues(Phi)
     # Liouville: the product of all mu is exp(-period tr C)
-    growth = from_multipliers(families, period, -0.5 * period * float(np.trace(p.C)) / size.n)
+    mean = -0.5 * period * float(np.trace(p.C)) / size.n
+    growth = growth_from_multipliers(_discs(mu, Phi, found), period, mean)
     return Monodromy(
         matrix=Phi,
         multipliers=_descending(mu),
         polynomial=found.p,
         errors=found.errors,
         matrix_error=found.matrix_error,
-        data_error=_data(equation) * float(np.sum(np.abs(found.p))),
+        data_error=data_share(equation) * float(np.sum(np.abs(found.p))),
         z=np.empty(0, complex),
         T=growth.T,
         T_error=growth.T_error,
@@ -240,30 +236,10 @@ def _damping_matrix(equation: HillEquation, how: Method, checked: Float, method:
     )
 
 
-def _by_subtraction(e: HillEquation, scale: Float) -> tuple[Float, float]:
-    """What the rounding of F - eta^2/4 adds to A, and to P over its size, to first order.
-
-    By Duhamel's formula a change dF moves A by the integral over the period of B dF A, and `scale`
-    has the sizes of A and B. That counts every element as if it stood alone; by the modes of F it
-    is far less, where F has modes.
-    """
-    n, eta = e.n, e.damping
-    quarter, exact = 0.25 * eta**2, Fraction(eta) ** 2 / 4
-    off = [abs(Fraction(f) - exact - Fraction(f - quarter)) for f in np.diag(e.F)]
-    rounded = np.array([float(x) for x in off])
-    alone = e.period * scale[:n, n:] @ (rounded[:, None] * scale[:n, :n])
-    share = moved_by_diagonal(e.F, rounded, quarter, e.Omega)
-    return alone, MODES * share
-
-
-def _data(e: HillEquation) -> float:
-    """What the errors of the matrices move P by, over its size."""
-    if e.data_error == 0.0:
-        return 0.0
-    largest = np.max(np.abs(e.F)) + sum(np.max(np.abs(H)) for H in (e.gamma * e.G, *e.H))
-    x = np.array([1.0 / e.Omega**2])
-    shift = 0.25 * e.damping**2 * x if np.ndim(e.eta) == 0 else 0.0 * x
-    return float(e.data_error * largest * x[0] * moved_by_data(e.F, x, shift)[1][0])
+def _discs(values: Complex, A: Float, found: Bounded) -> tuple[Discs, Discs]:
+    """Where the true eigenvalues of A are, by its polynomial and by itself."""
+    by_polynomial = discs_from_polynomial(values, found.p, found.errors)
+    return by_polynomial, discs_from_matrix(A, found.matrix_error)
 
 
 def _damp(Phi_u: Float, eta: float, period: float) -> Float:

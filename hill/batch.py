@@ -14,12 +14,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from hill.arrays import EPS, Float
 from hill.determinant.converged import characteristic
 from hill.determinant.folding import System, samples
 from hill.equation import HillEquation
-
-Float = NDArray[np.floating[Any]]
-EPS = float(np.finfo(float).eps)
 
 CHUNK = 1152
 """Matrix elements side by side: enough to hide Python's share, few enough for the cache."""

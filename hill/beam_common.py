@@ -6,11 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hill import checks
+from hill.arrays import Complex, Float
 from hill.errors import LongitudinalResonance
 from hill.system import Parameter
-
-Float = NDArray[np.floating[Any]]
-Complex = NDArray[np.complexfloating[Any, Any]]
 
 # sin(pi sigma) is known to an ulp of pi sigma; below this share of it, the undamped axial force is
 # resonant as far as rounding of Omega and omega_L can tell.

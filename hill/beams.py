@@ -5,13 +5,12 @@ The formulas are in :mod:`hill.matrices.uniform` and :mod:`hill.matrices.stepped
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import brentq
 
 from hill import checks
+from hill.arrays import Complex, Float
 from hill.beam_common import (
     COMMON,
     LARGEST_G,
@@ -27,9 +26,6 @@ from hill.beam_common import (
 from hill.equation import HillEquation
 from hill.matrices import stepped, uniform
 from hill.system import Parameter
-
-Float = NDArray[np.floating[Any]]
-Complex = NDArray[np.complexfloating[Any, Any]]
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -11,11 +11,9 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-Complex = NDArray[np.complexfloating[Any, Any]]
-Float = NDArray[np.floating[Any]]
-Bool = NDArray[np.bool_]
+from hill.arrays import EPS, Bool, Complex, Float
+
 Verdict = Literal["stable", "unstable", "undecided"]
-EPS = float(np.finfo(float).eps)
 
 # Radii tried for a root's disc, in units of 1 + |z|: from below an ulp to beyond every other root.
 RADII = 2.0 ** np.arange(-54.0, 3.5, 0.5)
@@ -39,7 +37,7 @@ class Stability:
 
 
 @dataclass(frozen=True, eq=False)
-class Judgement:
+class Stabilities:
     """The same for k polynomials.
 
     Attributes
@@ -61,7 +59,7 @@ class Judgement:
     verdict: NDArray[np.str_]
 
 
-def stability(polynomial: Float, error: ArrayLike, Omega: float, eta: float) -> Stability:
+def stability_of(polynomial: Float, error: ArrayLike, Omega: float, eta: float) -> Stability:
     """Roots of P, the characteristic argument T = (Omega/pi) ln R - eta (7.1.1), the verdict.
 
     Parameters
@@ -74,22 +72,24 @@ def stability(polynomial: Float, error: ArrayLike, Omega: float, eta: float) -> 
         Forcing frequency and transverse damping, over ``omega_1``.
     """
     errors = np.broadcast_to(np.asarray(error, float), polynomial.shape)
-    found = judge(polynomial[None], errors[None], np.array([Omega]), np.array([eta]))
+    found = stabilities(polynomial[None], errors[None], np.array([Omega]), np.array([eta]))
     verdict: Any = str(found.verdict[0])
     return Stability(found.z[0], float(found.T[0]), float(found.T_error[0]), verdict)
 
 
-def judge(polynomials: Float, errors: Float, Omega: Float, eta: Float) -> Judgement:
+def stabilities(polynomials: Float, errors: Float, Omega: Float, eta: Float) -> Stabilities:
     """As `stability`, for many polynomials (k, n + 1), errors (k, n + 1), Omega and eta (k,)."""
     parts = [
-        _judge(*(x[start : start + CHUNK] for x in (polynomials, errors, Omega, eta)))
+        _stabilities(*(x[start : start + CHUNK] for x in (polynomials, errors, Omega, eta)))
         for start in range(0, max(len(polynomials), 1), CHUNK)
     ]
     fields = ("z", "radius", "T", "T_error", "verdict")
-    return Judgement(*(np.concatenate([getattr(part, name) for part in parts]) for name in fields))
+    return Stabilities(
+        *(np.concatenate([getattr(part, name) for part in parts]) for name in fields)
+    )
 
 
-def _judge(p: Float, errors: Float, Omega: Float, eta: Float) -> Judgement:
+def _stabilities(p: Float, errors: Float, Omega: Float, eta: Float) -> Stabilities:
     errors = errors.copy()
     errors[:, 0] = 0.0
     z = roots(p)
@@ -113,7 +113,7 @@ def _judge(p: Float, errors: Float, Omega: Float, eta: Float) -> Judgement:
     T = np.where(still, 0.0, T)
     T_error = np.where(still, rounding, np.maximum(high - T, T - low))
     verdict = np.where(stable, "stable", np.where(unstable, "unstable", "undecided"))
-    return Judgement(z, radius, T, T_error, verdict)
+    return Stabilities(z, radius, T, T_error, verdict)
 
 
 def roots(polynomials: Float) -> Complex:

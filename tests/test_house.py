@@ -212,7 +212,7 @@ def test_the_witness_works_without_hill(
         assert f"hill.{place}" in hit
     for place in (
         "determinant.converged.characteristic",
-        "stability.stability",
+        "stability.stability_of",
         "matrices.uniform.mode",
     ):
         assert f"hill.{place}" in hit

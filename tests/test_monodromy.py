@@ -7,7 +7,7 @@ from systems import DENSE, SPECIAL, random_system
 
 from floquet import monodromy
 from floquet.integrate.cvodes import Cvodes
-from floquet.integrate.ode import shape, values
+from floquet.integrate.ode import parameter_values, shape
 from floquet.integrate.taylor import Taylor
 from floquet.period import second_half
 from hill import HillEquation
@@ -41,11 +41,11 @@ named = pytest.mark.parametrize("name", EQUATIONS)
 
 def whole_period(equation: HillEquation, run: Taylor | Cvodes | None = None) -> np.ndarray:
     run = Taylor(order=28) if run is None else run
-    return run(values(equation), shape(equation), equation.period)
+    return run(parameter_values(equation), shape(equation), equation.period)
 
 
 def in_steps(equation: HillEquation, order: int, steps: int) -> np.ndarray:
-    return Taylor(order).march(values(equation), shape(equation), equation.period, steps)
+    return Taylor(order).march(parameter_values(equation), shape(equation), equation.period, steps)
 
 
 def relative(found: np.ndarray, expected: np.ndarray) -> float:
@@ -67,7 +67,7 @@ def test_liouville(name: str) -> None:
 def test_half_a_period_is_enough(name: str) -> None:
     """S U^-1 S U of half the period is the whole one, integrated straight through."""
     equation = EQUATIONS[name]
-    undamped = values(equation, undamped=True), shape(equation)
+    undamped = parameter_values(equation, undamped=True), shape(equation)
     half, whole = (Taylor()(*undamped, t * equation.period) for t in (0.5, 1.0))
     # Measured 5e-15.
     assert relative(second_half(half)[0], whole) < 1e-13
@@ -172,7 +172,7 @@ def test_meissner(run: Taylor | Cvodes, Omega: float) -> None:
     pieces = []
     for square in (a + b, a - b):
         constant = HillEquation([[square]], [[0.0]], 0.0, Omega)
-        pieces.append(run(values(constant), shape(constant), half))
+        pieces.append(run(parameter_values(constant), shape(constant), half))
     p, q = np.sqrt([a + b, a - b])
     c, d = p * half, q * half
     trace = 2 * np.cos(c) * np.cos(d) - (p / q + q / p) * np.sin(c) * np.sin(d)
@@ -231,7 +231,7 @@ def test_a_damping_matrix(name: str, method: str) -> None:
 def test_two_periods(name: str) -> None:
     """Time starts at a crest again: Phi(2 T) = Phi(T)^2."""
     equation = EQUATIONS[name]
-    twice = Taylor(28)(values(equation), shape(equation), 2 * equation.period)
+    twice = Taylor(28)(parameter_values(equation), shape(equation), 2 * equation.period)
     Phi = monodromy(equation).matrix
     # Measured 1e-15.
     assert relative(Phi @ Phi, twice) < 5e-14

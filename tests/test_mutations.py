@@ -321,7 +321,7 @@ def test_drop_a_harmonic(harmonic: int, monkeypatch: Patch) -> None:
 @pytest.mark.parametrize("s", [0, 1, 3, 5], ids=["cos", "H_1", "H_3", "H_5"])
 def test_drop_a_harmonic_in_the_time_domain(s: int, monkeypatch: Patch) -> None:
     assert row_was_sound("T3-02b")
-    right = monodromies.values
+    right = monodromies.parameter_values
 
     def mutated(equation: HillEquation, **options: Any) -> Any:
         p = right(equation, **options)
@@ -331,7 +331,7 @@ def test_drop_a_harmonic_in_the_time_domain(s: int, monkeypatch: Patch) -> None:
         H[:, (s - 1) * equation.n : s * equation.n] = 0.0
         return replace(p, H=H)
 
-    monkeypatch.setattr(monodromies, "values", mutated)
+    monkeypatch.setattr(monodromies, "parameter_values", mutated)
     assert not row_is_sound("T3-02b")
 
 
@@ -408,18 +408,20 @@ def test_damping_term(route: str, share: float, monkeypatch: Patch) -> None:
     """eta q' of (4.5.18), which the report prints without eta, and T = ... - eta."""
     assert solutions_meet(*damped(UNIFORM))
     if route == "hill":
-        right_T = solver.stability
+        right_T = solver.stability_of
         monkeypatch.setattr(
-            solver, "stability", lambda P, error, Omega, eta: right_T(P, error, Omega, share * eta)
+            solver,
+            "stability_of",
+            lambda P, error, Omega, eta: right_T(P, error, Omega, share * eta),
         )
     else:
-        right_C = monodromies.values
+        right_C = monodromies.parameter_values
 
         def mutated(equation: HillEquation, **options: Any) -> Any:
             p = right_C(equation, **options)
             return replace(p, C=share * p.C)
 
-        monkeypatch.setattr(monodromies, "values", mutated)
+        monkeypatch.setattr(monodromies, "parameter_values", mutated)
     assert not solutions_meet(*damped(UNIFORM))
 
 

@@ -10,10 +10,10 @@ from flint import fmpq, fmpq_poly
 from systems import SPECIAL
 
 from floquet import monodromy
-from floquet.eigenvalues import from_matrix, from_polynomial
-from floquet.growth import from_multipliers, from_z, ln_mu
+from floquet.eigenvalues import discs_from_matrix, discs_from_polynomial
+from floquet.growth import growth_from_multipliers, growth_from_z, ln_mu
 from hill import HillEquation, characteristic
-from hill.stability import judge, log_R, root_radii, roots, stability
+from hill.stability import log_R, root_radii, roots, stabilities, stability_of
 
 ROUTES: dict[str, Callable[[HillEquation], Any]] = {"hill": characteristic, "floquet": monodromy}
 both = pytest.mark.parametrize("route", ROUTES)
@@ -24,10 +24,12 @@ def by_floquet(p: Any, error: Any, Omega: float, eta: float) -> Any:
     p = np.asarray(p, float)
     errors = np.broadcast_to(error, p.shape)
     z = roots(p[None])[0]
-    return from_z((from_polynomial(z, p, errors),), p, errors, 2.0 * np.pi / Omega, eta)
+    return growth_from_z(
+        (discs_from_polynomial(z, p, errors),), p, errors, 2.0 * np.pi / Omega, eta
+    )
 
 
-JUDGES: dict[str, Callable[..., Any]] = {"hill": stability, "floquet": by_floquet}
+JUDGES: dict[str, Callable[..., Any]] = {"hill": stability_of, "floquet": by_floquet}
 judges = pytest.mark.parametrize("judge_of", JUDGES.values(), ids=JUDGES)
 
 
@@ -124,7 +126,7 @@ def test_discs_from_a_matrix_hold_its_eigenvalues() -> None:
         n = int(rng.integers(1, 6))
         A = rng.standard_normal((n, n)) * 10.0 ** rng.uniform(-2, 2, (n, 1))
         error = np.abs(A) * 10.0 ** rng.uniform(-14, -2)
-        discs = from_matrix(A, error)
+        discs = discs_from_matrix(A, error)
         moved = np.linalg.eigvals(A + error * rng.choice([-1.0, 1.0], (n, n)))
         # numpy's own eigenvalues, to a hundred ulps of the norm times the condition
         slack = 1e-13 * np.linalg.norm(A) * np.linalg.cond(np.linalg.eig(A)[1])
@@ -142,7 +144,7 @@ def test_discs_from_a_polynomial_hold_its_roots() -> None:
     radius = root_radii(p[None], errors[None], z)[0]
     assert np.sort(radius)[0] < 1e-11
     assert 1e-6 < radius.max() < 1e-5
-    assert from_polynomial(z[0], p, errors).radius.max() < 1e-5
+    assert discs_from_polynomial(z[0], p, errors).radius.max() < 1e-5
 
 
 def test_what_a_root_is_off_is_in_its_radius() -> None:
@@ -152,7 +154,7 @@ def test_what_a_root_is_off_is_in_its_radius() -> None:
     nothing = np.zeros_like(p)
     off = np.add(exact, [1e-6, -1e-6, 1e-6])[None].astype(complex)
     assert np.all(root_radii(p, nothing, off)[0] >= 1e-6)
-    assert np.all(from_polynomial(off[0], p[0], nothing[0]).radius >= 1e-6)
+    assert np.all(discs_from_polynomial(off[0], p[0], nothing[0]).radius >= 1e-6)
 
 
 @judges
@@ -215,8 +217,8 @@ def test_multipliers_of_a_damping_matrix_are_judged() -> None:
     assert monodromy(excited).verdict == "unstable"
     free = HillEquation(np.diag([1.0, 4.0]), np.eye(2), 0.1, 2.7, eta=np.zeros((2, 2)))
     assert monodromy(free).verdict == "undecided"  # on the circle, and pairs are not used
-    nothing = from_polynomial(np.ones(1, complex), np.array([1.0, -1.0]), np.zeros(2))
-    assert from_multipliers((nothing,), 1.0, 0.0).verdict == "undecided"
+    nothing = discs_from_polynomial(np.ones(1, complex), np.array([1.0, -1.0]), np.zeros(2))
+    assert growth_from_multipliers((nothing,), 1.0, 0.0).verdict == "undecided"
 
 
 def test_many_polynomials_are_judged_as_each_alone() -> None:
@@ -224,9 +226,9 @@ def test_many_polynomials_are_judged_as_each_alone() -> None:
     p = np.array([np.real(np.poly(rng.uniform(-1.1, 1.1, 3))) for _ in range(2500)])
     errors = np.full(p.shape, 1e-6)
     Omega, eta = rng.uniform(0.5, 2.0, 2500), rng.choice([0.0, 0.05], 2500)
-    found = judge(p, errors, Omega, eta)
+    found = stabilities(p, errors, Omega, eta)
     for k in range(0, 2500, 100):
-        one = stability(p[k], 1e-6, Omega[k], eta[k])
+        one = stability_of(p[k], 1e-6, Omega[k], eta[k])
         assert (one.T, one.T_error, one.verdict) == (
             found.T[k],
             found.T_error[k],

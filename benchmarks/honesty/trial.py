@@ -17,7 +17,7 @@ from benchmarks.honesty.systems import GROUP, SHARED, members
 from floquet import monodromy
 from floquet.batch import c_kernel
 from hill import HillEquation, characteristic
-from hill.stability import judge
+from hill.stability import stabilities
 
 Float = NDArray[np.float64]
 EPS = float(np.finfo(float).eps)
@@ -215,7 +215,7 @@ def _batch(run: Callable[[Sequence[HillEquation]], Any], es: list[HillEquation])
         errors = np.repeat(found.errors[:, None], some[0].n + 1, axis=1)
         errors[:, 0] = 0.0
         Omega, eta = np.array([e.Omega for e in some]), np.array([e.damping for e in some])
-        judgement = judge(found.coefficients, errors, Omega, eta)
+        judgement = stabilities(found.coefficients, errors, Omega, eta)
         return [
             Answer(
                 found.coefficients[i], errors[i], float(judgement.T[i]),

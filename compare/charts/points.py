@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hill.stability import by_signs, judge, separators
+from hill.stability import by_signs, separators, stabilities
 
 Complex = NDArray[np.complexfloating[Any]]
 Float = NDArray[np.floating[Any]]
@@ -59,7 +59,7 @@ class Points:
 def solve(polynomial: Float, error: Float, Omega: Float, eta: Float) -> Points:
     """Roots and growth of many P(z), (k, n + 1), each with its own error, Omega and eta."""
     errors = np.broadcast_to(error[:, None], polynomial.shape)
-    found = judge(polynomial, errors, Omega, eta)
+    found = stabilities(polynomial, errors, Omega, eta)
     return Points(
         polynomial=polynomial,
         error=error,
@@ -93,7 +93,7 @@ def verdicts(p: Float, error: Float, log_R: Float, Omega: Float, eta: Float) -> 
     stable = inside & (eta >= 0.0)
     result = np.where(stable, "stable", np.where(beyond | grows, "unstable", "undecided"))
     rest = np.flatnonzero(result == "undecided")
-    result[rest] = judge(p[rest], errors[rest], Omega[rest], eta[rest]).verdict
+    result[rest] = stabilities(p[rest], errors[rest], Omega[rest], eta[rest]).verdict
     return np.asarray(result)
 
 

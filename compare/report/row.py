@@ -16,7 +16,7 @@ from compare.report.tables import Row, corrected
 from floquet.galerkin import galerkin
 from hill import HillEquation, characteristic
 from hill.determinant import finite, residues
-from hill.stability import Verdict, stability
+from hill.stability import Verdict, stability_of
 
 Complex = NDArray[np.complexfloating[Any, Any]]
 Cause = Literal["agrees", "truncation", "listing-slip", "misprint", "unexplained"]
@@ -184,7 +184,7 @@ def _truncated(eq: HillEquation) -> Found:
     polynomial = residues.polynomial(finite.blocks(eq), residues.report_rule(eq))
     if polynomial is None:
         return float("nan"), np.full(eq.n, np.nan, complex)
-    found = stability(polynomial, 0.0, eq.Omega, eq.damping)
+    found = stability_of(polynomial, 0.0, eq.Omega, eq.damping)
     return found.T, found.z
 
 

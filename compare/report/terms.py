@@ -13,7 +13,7 @@ from compare.report.tables import Row
 from floquet import monodromy
 from floquet.galerkin import galerkin
 from hill import characteristic
-from hill.stability import Verdict, stability
+from hill.stability import Verdict, stability_of
 
 # Both routes take so many; the determinant's band widens with every one.
 TERMS = 8
@@ -70,7 +70,7 @@ def with_more_terms(row: Row, terms: int = TERMS) -> MoreTerms:
     moved = fine.polynomial - coarse.polynomial
     limit = fine.polynomial + moved / ((FINER[1] / FINER[0]) ** POWER - 1.0)
     doubt = float(np.max(np.abs(moved))) + coarse.error + fine.error
-    found = stability(limit, doubt, row.Omega, row.run["eta"])
+    found = stability_of(limit, doubt, row.Omega, row.run["eta"])
     shown: set[Verdict] = {h.verdict, f.verdict}
     shown.discard("undecided")
     return MoreTerms(

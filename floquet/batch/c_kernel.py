@@ -18,9 +18,9 @@ from typing import Any
 import numpy as np
 
 from floquet.batch.numpy_kernel import ORDER, POWERS, TOLERANCE, Found, March, Points, by_numpy
-from floquet.charpoly import BY_MINORS, characteristic_polynomials
-from floquet.integrate.step_length import MOST_EXPONENT, RADII
-from floquet.integrate.taylor import MOST_STEPS
+from floquet.charpoly import MAX_MINORS, characteristic_polynomials
+from floquet.integrate.step_length import MAX_EXPONENT, RADII
+from floquet.integrate.taylor import MAX_STEPS
 
 COMPILERS = ("cc", "gcc", "clang")
 FLAGS = ("-O3", "-march=native", "-fno-math-errno", "-fPIC", "-shared", "-lm")
@@ -128,7 +128,7 @@ def _built(command: str, n: int, terms: int) -> Path:
     columns, block = _blocks(n)
     sizes = {"N": n, "TERMS": terms, "ORDER": ORDER, "POWERS": POWERS}
     sizes |= {"COLUMNS": columns, "BLOCK": block}
-    sizes |= {"RADII": len(RADII), "MOST_EXPONENT": int(MOST_EXPONENT)}
+    sizes |= {"RADII": len(RADII), "MAX_EXPONENT": int(MAX_EXPONENT)}
     options = [f"-D{name}={value}" for name, value in sizes.items()]
     version = _run([command, "--version"], b"", ASKED)
     key = hashlib.sha256(repr((source, command, version, options, FLAGS, _cpu())).encode())
@@ -235,15 +235,15 @@ def _wrapped(function: Callable[..., Any]) -> March:
         given = (points.matrices, points.weights, points.shift)
         numbers = [np.ascontiguousarray(value, float) for value in given]
         phases = np.array(points.phases, np.intc)
-        shapes = ((k, n + 1), (k,)) if n <= BY_MINORS else ((k, n, n), (k, n, n))
+        shapes = ((k, n + 1), (k,)) if n <= MAX_MINORS else ((k, n, n), (k, n, n))
         one, other, growth, rate = (np.empty(shape) for shape in (*shapes, (k,), (k,)))
         at = [
             array.__array_interface__["data"][0]
             for array in (*numbers, phases, RADII, one, other, growth, rate)
         ]
-        if function(k, *at[:5], TOLERANCE, float(MOST_STEPS), *at[5:]):
+        if function(k, *at[:5], TOLERANCE, float(MAX_STEPS), *at[5:]):
             raise MemoryError(f"half a period of {n} coordinates does not fit into memory")
-        if n > BY_MINORS:
+        if n > MAX_MINORS:
             one[~np.isfinite(growth)] = 0.0
             one, other = characteristic_polynomials(one, other)
         return Found(one, other, growth, rate)

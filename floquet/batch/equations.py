@@ -9,17 +9,16 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from floquet.accuracy import moved_by_data
+from floquet.arrays import EPS, Float
 from floquet.batch import c_kernel
 from floquet.batch.numpy_kernel import March, Points, by_numpy
-from floquet.period import WELL, monodromy
+from floquet.period import MAX_TERM_GROWTH, monodromy
 from hill import HillEquation
 
-Float = NDArray[np.floating[Any]]
 Kernel = Literal["auto", "compiled", "numpy"]
-EPS = float(np.finfo(float).eps)
 KERNELS = ("auto", "compiled", "numpy")
 
 # Where "auto" compiles: building takes as long as numpy needs for about this many points. It does
@@ -219,7 +218,7 @@ def _solve(
     errors[ordered] = ULPS * EPS * (2.0 + 2.0 * np.pi * found.rate) * found.sensitivity
     errors[ordered] += ULPS * EPS * data * size
     # as in `monodromy`: much growth makes the half period's inverse a poor one
-    poor = ~((found.growth < WELL) & (errors[ordered] <= POOR * size))
+    poor = ~((found.growth < MAX_TERM_GROWTH) & (errors[ordered] <= POOR * size))
     for i in map(int, ordered[poor]):
         P[i], errors[i] = alone(i)
     return P, errors

@@ -1,7 +1,7 @@
 /* Half a period of u'' = -(x F - shift) u - sum_i w_i cos(p_i theta) G_i u, LANES points side by
  * side, and what P(z) needs of it. The same recurrence as floquet/batch/numpy_kernel.py; N coordinates, TERMS
  * cosines, Taylor ORDER, COLUMNS of U taken at once (a divisor of 2 N), BLOCK sums kept in registers
- * (a multiple of COLUMNS), POWERS, RADII and MOST_EXPONENT are set on the compiler's command line. */
+ * (a multiple of COLUMNS), POWERS, RADII and MAX_EXPONENT are set on the compiler's command line. */
 
 #include <math.h>
 #include <stdlib.h>
@@ -48,7 +48,7 @@ static void cosines(double *series, const int *phases, double theta, double h)
 
 /* Collatz and Wielandt: for any v > 0 the Perron root of S >= 0 is at most max (S v)_i / v_i.
  * Infinite where S is not finite, or not known to be. */
-static double perron(int size, const double *S)
+static double perron_root(int size, const double *S)
 {
     double v[WIDE], moved[WIDE], bound = INFINITY;
     for (int r = 0; r < size; r++)
@@ -85,16 +85,16 @@ static double longest_step(const double *worst, const int *phases, const double 
         if (i && phases[i - 1] > forcing)
             forcing = phases[i - 1];
     }
-    *rate = sqrt(perron(N, S)) + forcing;
+    *rate = sqrt(perron_root(N, S)) + forcing;
     for (int k = 0; k < RADII; k++) {
         double R = radii[k] * (ORDER + 1) / 25.0 / *rate;
         memcpy(S, worst, sizeof S);
         for (int i = 1; i <= TERMS; i++) {
-            double swell = cosh(fmin(phases[i - 1] * R, MOST_EXPONENT / 2));
+            double swell = cosh(fmin(phases[i - 1] * R, MAX_EXPONENT / 2));
             for (int e = 0; e < N * N; e++)
                 S[e] += swell * worst[i * N * N + e];
         }
-        double growth = fmin(R * sqrt(perron(N, S)), MOST_EXPONENT);
+        double growth = fmin(R * sqrt(perron_root(N, S)), MAX_EXPONENT);
         double share = exp((log(0.5 * tolerance) - growth) / (ORDER + 1));
         longest = fmax(longest, R * fmin(share, 0.5));
     }
@@ -217,7 +217,7 @@ static double finish(double U[WIDE][WIDE], double top[WIDE][WIDE], double A[N][N
             A[r][c] = 2.0 * sum - (r == c);
             first[r][c] = scale[r * WIDE + c];
         }
-    return sound ? perron(WIDE, scale) : INFINITY;
+    return sound ? perron_root(WIDE, scale) : INFINITY;
 }
 
 #if N <= 3

@@ -9,15 +9,13 @@ all of them is one array, and the recurrence for the next one is one product.
 
 from dataclasses import dataclass
 from math import ceil, factorial
-from typing import Any, Protocol
+from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
+from floquet.arrays import Float
 from floquet.charpoly import characteristic_polynomials
-from floquet.integrate.step_length import Term, longest_step, rate
-
-Float = NDArray[np.floating[Any]]
+from floquet.integrate.step_length import Term, fastest_rate, longest_step
 
 ORDER, TOLERANCE = 24, 1e-17
 """As for `floquet.integrate.taylor.Taylor`."""
@@ -97,7 +95,7 @@ def by_numpy(points: Points) -> Found:
         worst, nothing = _terms(chunk), np.zeros(points.matrices.shape[-2:])
         steps = ceil(np.pi / longest_step(worst, nothing, ORDER, TOLERANCE))
         A, scale, growth = _folded(*_fundamental(chunk, steps))
-        fastest = np.full(len(A), rate(worst, nothing))
+        fastest = np.full(len(A), fastest_rate(worst, nothing))
         found.append((*characteristic_polynomials(A, scale), growth, fastest))
     return Found(*(np.concatenate(values) for values in zip(*found, strict=True)))
 

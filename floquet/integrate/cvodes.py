@@ -6,11 +6,9 @@ from typing import Any
 
 import casadi as ca
 import numpy as np
-from numpy.typing import NDArray
 
+from floquet.arrays import Float
 from floquet.integrate.ode import Parameters, Shape, acceleration, symbols
-
-Float = NDArray[np.floating[Any]]
 
 
 @dataclass(frozen=True)

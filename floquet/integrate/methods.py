@@ -1,16 +1,12 @@
 """The methods there are; a further one is a file beside this and a line in `METHODS`."""
 
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Protocol
 
-import numpy as np
-from numpy.typing import NDArray
-
+from floquet.arrays import Float
 from floquet.integrate.cvodes import Cvodes
 from floquet.integrate.ode import Parameters, Shape
 from floquet.integrate.taylor import Taylor
-
-Float = NDArray[np.floating[Any]]
 
 
 class Propagator(Protocol):

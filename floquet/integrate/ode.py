@@ -5,11 +5,9 @@ from typing import Any
 
 import casadi as ca
 import numpy as np
-from numpy.typing import NDArray
 
+from floquet.arrays import Float
 from hill import HillEquation
-
-Float = NDArray[np.floating[Any]]
 
 
 @dataclass(frozen=True)
@@ -41,7 +39,7 @@ def shape(equation: HillEquation) -> Shape:
     return Shape(len(equation.F), len(equation.H))
 
 
-def values(equation: HillEquation, *, undamped: bool = False) -> Parameters:
+def parameter_values(equation: HillEquation, *, undamped: bool = False) -> Parameters:
     """The numbers of an equation; `undamped` in u of Eq. (6.1.2), whose damping term is gone.
 
     H_s are side by side, shape (n, n * terms); C is the damping matrix.

@@ -7,20 +7,18 @@ from typing import Any
 
 import casadi as ca
 import numpy as np
-from numpy.typing import NDArray
 
+from floquet.arrays import Float
 from floquet.integrate.ode import Parameters, Shape, symbols, terms
 from floquet.integrate.step_length import longest_step
-
-Float = NDArray[np.floating[Any]]
 
 # SX expands every scalar operation: quicker to run, slower to build. Measured: at this many of
 # them both take about as long for ten calls, and a build stays under 0.2 s.
 SX_OPERATIONS = 60_000
 
 # Steps in one fold, whose inputs are held side by side; and the most of them in one period.
-FOLDED = 1024
-MOST_STEPS = 1_000_000
+MAX_FOLD_STEPS = 1024
+MAX_STEPS = 1_000_000
 
 
 @dataclass(frozen=True)
@@ -41,12 +39,12 @@ class Taylor:
     def __call__(self, p: Parameters, size: Shape, time: float) -> Float:
         """Fundamental matrix at `time`."""
         needed = ceil(time / longest_step(terms(p, size), p.C, self.order, self.tolerance))
-        if needed > MOST_STEPS:
+        if needed > MAX_STEPS:
             raise ValueError(
                 f"Omega = {p.Omega:g}: too small, one period needs {needed:,} Taylor steps "
-                f"(at most {MOST_STEPS:,})"
+                f"(at most {MAX_STEPS:,})"
             )
-        steps = bucket(min(needed, FOLDED))
+        steps = rounded_up(min(needed, MAX_FOLD_STEPS))
         return self.march(p, size, time, steps, ceil(needed / steps))
 
     def march(self, p: Parameters, size: Shape, time: float, steps: int, folds: int = 1) -> Float:
@@ -61,7 +59,7 @@ class Taylor:
         return np.asarray(X)
 
 
-def bucket(steps: int) -> int:
+def rounded_up(steps: int) -> int:
     """Round up to 2^k or 3 2^(k-1), so that few folds are built and kept."""
     power = 1 << ceil(log2(max(steps, 2)))
     return power * 3 // 4 if steps <= power * 3 // 4 else power

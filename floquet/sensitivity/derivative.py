@@ -5,14 +5,11 @@ a narrow one rounding is divided by little: intervals are halved while that gain
 """
 
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 from numpy.polynomial import chebyshev
-from numpy.typing import NDArray
 
-Float = NDArray[np.floating[Any]]
-EPS = float(np.finfo(float).eps)
+from floquet.arrays import EPS, Float
 
 NODES = 20
 HALVINGS = 14

@@ -1,17 +1,12 @@
 """How eigenvalues move, and where they have no derivative."""
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from floquet.accuracy import SAFETY
+from floquet.arrays import EPS, Complex, Float
 from floquet.sensitivity.matrices import Run
-
-Complex = NDArray[np.complexfloating[Any, Any]]
-Float = NDArray[np.floating[Any]]
-EPS = float(np.finfo(float).eps)
 
 # A step turns the fastest motion by up to 2.3 rad, over which a term that swings twice as fast
 # averages to a third and hides what it is made of.

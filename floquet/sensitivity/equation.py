@@ -13,18 +13,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from floquet.eigenvalues import eigenvalues, from_polynomial
-from floquet.integrate.ode import shape, terms, values
-from floquet.integrate.step_length import rate
+from floquet.arrays import EPS, Complex, Float
+from floquet.eigenvalues import discs_from_polynomial, sorted_eigenvalues
+from floquet.integrate.ode import parameter_values, shape, terms
+from floquet.integrate.step_length import fastest_rate
 from floquet.integrate.taylor import Taylor
 from floquet.period import monodromy
 from floquet.sensitivity import matrices
 from floquet.sensitivity.eigenvalues import APART, Moves, Roots, leader, moves
 from hill import HillEquation
-
-Complex = NDArray[np.complexfloating[Any, Any]]
-Float = NDArray[np.floating[Any]]
-EPS = float(np.finfo(float).eps)
 
 # The run and the one it is checked by, as in `floquet.monodromy`: other steps.
 RUN, CHECK = Taylor(), Taylor(order=29)
@@ -111,14 +108,14 @@ def sensitivities(equation: HillEquation) -> Sensitivities:
     else:
         first = matrices.half_period if m.half_period else matrices.whole_period
         run, check = first(equation, RUN), matrices.as_it_stands(equation, CHECK)
-    p, period = values(equation), 2.0 * np.pi / equation.Omega
-    centre = eigenvalues(run.matrix)
-    radius = from_polynomial(centre, m.polynomial, m.errors).radius
+    p, period = parameter_values(equation), 2.0 * np.pi / equation.Omega
+    centre = sorted_eigenvalues(run.matrix)
+    radius = discs_from_polynomial(centre, m.polynomial, m.errors).radius
     roots = Roots("multiplier" if matrix else "z", centre, radius)
     growth = _growth(roots, _of_multiplier if matrix else _of_z)
     lead = _lead(roots, growth)
     wanted = [lead] if matrix and lead is not None else list(range(len(roots.values)))
-    ulps = 8.0 + rate(terms(p, shape(equation)), p.C) * period
+    ulps = 8.0 + fastest_rate(terms(p, shape(equation)), p.C) * period
     found = moves(run, check, roots, wanted, ulps)
     slope, error = _of_T(equation, growth, lead, found, wanted)
     if matrix:

@@ -7,18 +7,16 @@ Three ways to it, as in :mod:`floquet.monodromy`: half a period or a whole one i
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from floquet.integrate.ode import shape, values
+from floquet.arrays import Float
+from floquet.integrate.ode import parameter_values, shape
 from floquet.integrate.taylor import Taylor
 from floquet.period import second_half
 from floquet.sensitivity.tape import Slopes, Tape, tape
 from hill import HillEquation
 
-Float = NDArray[np.floating[Any]]
 Pull = Callable[[Float], tuple[Float, Float]]
 
 
@@ -91,7 +89,7 @@ def multipliers(equation: HillEquation, method: Taylor) -> Run:
 
 
 def _tape(equation: HillEquation, method: Taylor, share: float, undamped: bool = False) -> Tape:
-    p = values(equation, undamped=undamped)
+    p = parameter_values(equation, undamped=undamped)
     return tape(method, p, shape(equation), share * 2.0 * np.pi / equation.Omega)
 
 

@@ -10,13 +10,11 @@ from math import ceil
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from floquet.arrays import Float
 from floquet.integrate.ode import Parameters, Shape, terms
 from floquet.integrate.step_length import longest_step
-from floquet.integrate.taylor import FOLDED, Taylor, bucket, folded
-
-Float = NDArray[np.floating[Any]]
+from floquet.integrate.taylor import MAX_FOLD_STEPS, Taylor, folded, rounded_up
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,7 +89,7 @@ class Tape:
 def tape(method: Taylor, p: Parameters, size: Shape, time: float) -> Tape:
     """Integrate over `time` with the steps that `method` itself takes."""
     needed = ceil(time / longest_step(terms(p, size), p.C, method.order, method.tolerance))
-    steps = bucket(min(needed, FOLDED))
+    steps = rounded_up(min(needed, MAX_FOLD_STEPS))
     empty = Tape(p, size, time, method.order, steps, ceil(needed / steps), ())
     fold = folded(size, method.order, steps)
     states = [np.eye(2 * size.n)]

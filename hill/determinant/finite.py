@@ -19,17 +19,14 @@ order (`log_pair_tail`). What is left falls like M^-5 or faster, and is extrapol
 
 from dataclasses import dataclass
 from functools import cache, cached_property
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg.lapack import zgbtrf
 from scipy.special import zeta
 
+from hill.arrays import Complex, Float
 from hill.equation import HillEquation
-
-Complex = NDArray[np.complexfloating[Any, Any]]
-Float = NDArray[np.floating[Any]]
 
 # Gauss nodes for the tail's integral. Its integrand is analytic to twice the interval's length
 # (M >= 2 w below), so 12 nodes leave 6**-24 = 2e-19.

@@ -25,8 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import zeta
 
-Complex = NDArray[np.complexfloating[Any, Any]]
-Float = NDArray[np.floating[Any]]
+from hill.arrays import Complex, Float
 
 # Steps that bring S(s) from D(s) to its limit: each gains a factor (|B|/s^2)^2 in log det.
 RUN_IN = 2

@@ -1,15 +1,10 @@
 """The report's own way to P(z): residues K_j of a finite determinant, Eqs. (6.3.3) to (6.3.7)."""
 
-from typing import Any
-
 import numpy as np
-from numpy.typing import NDArray
 
+from hill.arrays import Complex, Float
 from hill.determinant.finite import Blocks
 from hill.equation import HillEquation
-
-Complex = NDArray[np.complexfloating[Any, Any]]
-Float = NDArray[np.floating[Any]]
 
 MOST = 14
 """The listing's largest M: 29 blocks of 3 rows just fit its 100 by 100 array."""

@@ -14,13 +14,9 @@ is rounded in each row anew, the squares and the elimination, by their root mean
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from hill.arrays import EPS, Complex, Float
 from hill.determinant.finite import Blocks
-
-Complex = NDArray[np.complexfloating[Any, Any]]
-Float = NDArray[np.floating[Any]]
-EPS = float(np.finfo(float).eps)
 
 # (F - eta^2/4)/Omega^2 takes four roundings of half an ulp each, B_p three.
 DATA = 2.0

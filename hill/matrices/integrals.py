@@ -1,13 +1,9 @@
 """The two integrals from which every coefficient matrix of the report is made."""
 
-from typing import Any
-
 import numpy as np
-from numpy.typing import NDArray
 
+from hill.arrays import Complex
 from hill.matrices.modes import Exponentials
-
-Complex = NDArray[np.complexfloating[Any, Any]]
 
 
 def _moment(f: Exponentials, a: float, b: float, extra: complex = 0.0) -> Complex:

@@ -10,12 +10,10 @@ with o_0 = -lambda_n and the other o_p = 0, so that every exponential is at most
 
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-Complex = NDArray[np.complexfloating[Any, Any]]
+from hill.arrays import Complex
 
 
 def eigenvalue(n: int) -> float:

@@ -4,15 +4,12 @@ All three matrices are over lambda_1**4 and in the order q_1..q_N, q_B, q_A of E
 """
 
 from functools import lru_cache
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from hill.arrays import Float
 from hill.matrices.integrals import integral, sine_integral
 from hill.matrices.modes import UNIT, ZERO, Exponentials, curvature, eigenvalue, mode
-
-Float = NDArray[np.floating[Any]]
 
 
 def mass(modes: int, xi_c: float, area_ratio: float) -> Float:

@@ -5,15 +5,13 @@ The corrections are argued one by one in ``compare/report/data/errata.toml``.
 """
 
 from functools import lru_cache
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from hill.arrays import Float
 from hill.matrices.integrals import sine_integral
 from hill.matrices.modes import UNIT, Exponentials, eigenvalue, mode, slope
-
-Float = NDArray[np.floating[Any]]
 
 
 def steady(modes: int, T0: float, K_theta: float, xi_G: float) -> Float:

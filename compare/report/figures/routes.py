@@ -14,10 +14,10 @@ from numpy.typing import NDArray
 from compare.tongues.boundaries import Family
 from floquet.batch import polynomials
 from floquet.galerkin import galerkin
-from floquet.integrate.ode import shape, values
-from floquet.integrate.step_length import perron
+from floquet.integrate.ode import parameter_values, shape
+from floquet.integrate.step_length import perron_root
 from floquet.integrate.taylor import Taylor
-from floquet.period import WELL, second_half
+from floquet.period import MAX_TERM_GROWTH, second_half
 from hill import HillEquation, SteppedBeam, UniformBeam, characteristic
 
 Beam = UniformBeam | SteppedBeam
@@ -85,10 +85,11 @@ def _half_period(equation: HillEquation) -> Float:
 
     As in `floquet.monodromy`, much growth makes the half period's inverse a poor one.
     """
-    run, size, half = values(equation, undamped=True), shape(equation), np.pi / equation.Omega
+    run, size = parameter_values(equation, undamped=True), shape(equation)
+    half = np.pi / equation.Omega
     U = Taylor()(run, size, half)
     Phi, scale = second_half(U) if np.abs(U).max() < MUCH else (U, np.full_like(U, np.inf))
-    if np.isinf(scale).any() or perron(scale) >= WELL:
+    if np.isinf(scale).any() or perron_root(scale) >= MAX_TERM_GROWTH:
         Phi = Taylor()(run, size, 2.0 * half)
     return np.real(np.poly(Phi[: size.n, : size.n]))
 
