@@ -50,6 +50,8 @@ class Taylor:
     def march(self, p: Parameters, size: Shape, time: float, steps: int, folds: int = 1) -> Float:
         """The same with a given number of steps, `folds` times as many as one fold has."""
         h = time / (folds * steps)
+        if not _is_expanded(size, self.order):
+            return self._one_by_one(p, size, h, folds * steps)
         fold = folded(size, self.order, steps)
         wide = [np.tile(value, (1, steps)) for value in p]
         X = np.eye(2 * size.n)
@@ -58,11 +60,25 @@ class Taylor:
             X = fold(X, start, np.full((1, steps), h), *wide)
         return np.asarray(X)
 
+    def _one_by_one(self, p: Parameters, size: Shape, h: float, steps: int) -> Float:
+        """The same to the last bit: a fold of large steps takes far longer to build than to run."""
+        step, numbers = _step(size, self.order), [ca.DM(value) for value in p]
+        X = ca.DM(np.eye(2 * size.n))
+        for k in range(steps):
+            X = step(X, h * k, h, *numbers)
+        return np.asarray(X)
+
 
 def rounded_up(steps: int) -> int:
     """Round up to 2^k or 3 2^(k-1), so that few folds are built and kept."""
     power = 1 << ceil(log2(max(steps, 2)))
     return power * 3 // 4 if steps <= power * 3 // 4 else power
+
+
+def _is_expanded(size: Shape, order: int) -> bool:
+    """Whether a step is written out in scalars."""
+    operations = size.n**2 * order * (order + 4 * size.n) * (2 + size.terms)
+    return operations < SX_OPERATIONS
 
 
 @lru_cache(maxsize=64)
@@ -75,8 +91,7 @@ def folded(size: Shape, order: int, steps: int) -> Any:
 def _step(size: Shape, order: int) -> Any:
     """One step of length h from (Q, V) at tau, as a CasADi function."""
     n = size.n
-    operations = n * n * order * (order + 4 * n) * (2 + size.terms)
-    kind: Any = ca.SX if operations < SX_OPERATIONS else ca.MX
+    kind: Any = ca.SX if _is_expanded(size, order) else ca.MX
     p = symbols(kind, size)
     X, tau, h = kind.sym("X", 2 * n, 2 * n), kind.sym("tau"), kind.sym("h")
 
