@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from typing import Any
 
-from floquet.galerkin import galerkin
+from floquet.weak_form import galerkin
 from hill import HillEquation, SteppedBeam, UniformBeam
 
 Make = Callable[..., HillEquation]

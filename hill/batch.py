@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from hill.arrays import EPS, Float
 from hill.determinant.converged import characteristic
-from hill.determinant.folding import System, samples
+from hill.determinant.folding import BlockBatch, samples
 from hill.equation import HillEquation
 
 CHUNK = 1152
@@ -24,20 +24,21 @@ CHUNK = 1152
 
 # Equations that share their matrices by fewer than this, on average, go together unshared: 16 alike
 # take .33 ms each, 256 that are not .13 ms.
-FEW = 32
+MIN_GROUP = 32
 
-# M = 2 w + REACH sqrt|B| + SPARE: the tails' own error bound is then about the rounding's.
-REACH, SPARE = 8.0, 20
+# M = 2 w + COUPLING_HARMONICS sqrt|B| + EXTRA_HARMONICS: the tails' own error bound is then about
+# the rounding's.
+COUPLING_HARMONICS, EXTRA_HARMONICS = 8.0, 20
 
 # Largest n w, and M: the product over m comes to exp(2 n w) on its way, and M**56 is needed.
-FAST, MOST = 100.0, 500
+MAX_EXPONENT, MAX_HARMONICS = 100.0, 500
 
 # (F - eta^2/4)/Omega^2 takes four roundings of half an ulp; doubled, since the first order at
 # gamma = 0 stands for what the couplings make of it.
-DATA = 4.0
+DATA_ULPS = 4.0
 
 # Relative error bound above which `characteristic` is asked.
-POOR = 1e-10
+REFINE_ABOVE = 1e-10
 
 # Against 600-bit arithmetic the true error was 0.20 of the bound at most over 450 systems of
 # tests/systems.py, 0.13 over the chart range, and 0.41 over 200 with coefficients of up to 1e25.
@@ -90,8 +91,8 @@ def polynomials(equations: Sequence[HillEquation]) -> Polynomials:
         system, M = _system([equations[i] for i in members])
         for part in _by_size(M, max(1, CHUNK // n**2)):
             chunk = np.array(members)[part]
-            coefficients[chunk], errors[chunk] = _solve(system.some(part), int(M[part].max()))
-    poor = ~(errors <= POOR * np.max(np.abs(coefficients), axis=1))
+            coefficients[chunk], errors[chunk] = _solve(system.take(part), int(M[part].max()))
+    poor = ~(errors <= REFINE_ABOVE * np.max(np.abs(coefficients), axis=1))
     for i in map(int, np.flatnonzero(poor)):
         c = characteristic(equations[i])
         coefficients[i], errors[i] = c.polynomial, c.error
@@ -105,11 +106,11 @@ def _alike(equations: Sequence[HillEquation]) -> list[list[int]]:
         if not e.H:
             groups.setdefault((e.F.tobytes(), e.G.tobytes()), []).append(i)
     together = [i for members in groups.values() for i in members]
-    few = len(together) < FEW * len(groups)
+    few = len(together) < MIN_GROUP * len(groups)
     return [together] if few else list(groups.values())
 
 
-def _system(equations: list[HillEquation]) -> tuple[System, Float]:
+def _system(equations: list[HillEquation]) -> tuple[BlockBatch, Float]:
     """Blocks, and the M that each equation needs: infinite where it had better go alone."""
     n = equations[0].n
     per_Omega2 = np.array([1.0 / e.Omega**2 for e in equations])
@@ -121,13 +122,13 @@ def _system(equations: list[HillEquation]) -> tuple[System, Float]:
     squares = (of_F - shift) * per_Omega2
     highest = np.sqrt(np.max(np.abs(squares), axis=0))
     strength = np.abs(b) * np.max(np.abs(_eigenvalues(np.abs(G))), axis=0)
-    M = 2.0 * highest + REACH * np.sqrt(strength) + SPARE
+    M = 2.0 * highest + COUPLING_HARMONICS * np.sqrt(strength) + EXTRA_HARMONICS
     shared = G[:, :, 0] if G.shape[-1] == 1 else G[:, :, None]
     # z_j moves by pi sin(2 pi w)/w times what w_j^2 does, or 2 pi^2 where w is small
     w = np.maximum(np.sqrt(np.abs(squares)), 0.5 / np.pi)
-    data = DATA * EPS * np.sum(np.pi / w * moved * per_Omega2, axis=0)
-    system = System(Fbar[:, :, None], shared, b * b, squares[:, None], data)
-    fast = (n * highest <= FAST) & (M <= MOST) & (data <= POOR)
+    data = DATA_ULPS * EPS * np.sum(np.pi / w * moved * per_Omega2, axis=0)
+    system = BlockBatch(Fbar[:, :, None], shared, b * b, squares[:, None], data)
+    fast = (n * highest <= MAX_EXPONENT) & (M <= MAX_HARMONICS) & (data <= REFINE_ABOVE)
     return system, np.where(fast, M, np.inf)
 
 
@@ -167,7 +168,7 @@ def _by_size(M: Float, count: int) -> Iterator[NDArray[np.int_]]:
     yield from (order[k : k + count] for k in range(0, len(order), count))
 
 
-def _solve(system: System, M: int) -> tuple[Float, Float]:
+def _solve(system: BlockBatch, M: int) -> tuple[Float, Float]:
     """Coefficients (k, n + 1) and errors (k,)."""
     n = len(system.Fbar)
     count = n // 2 + 2

@@ -29,10 +29,10 @@ SCAN = 64
 MATRIX_ERROR = 32.0 * 2.0**-52
 
 # One evaluation with 30 takes the time domain two minutes and a half.
-MOST_MODES = 40
+MAX_MODES = 40
 
 # Beyond it exp(pi sqrt(g)) overflows; a structure's g is below 1.
-LARGEST_G = 1e4
+MAX_G = 1e4
 
 
 def frequencies(

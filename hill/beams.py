@@ -13,8 +13,8 @@ from hill import checks
 from hill.arrays import Complex, Float
 from hill.beam_common import (
     COMMON,
-    LARGEST_G,
-    MOST_MODES,
+    MAX_G,
+    MAX_MODES,
     RESONANCE_ULPS,
     SCAN,
     forcing,
@@ -67,14 +67,14 @@ class UniformBeam:
             K_theta=checks.number("K_theta", self.K_theta),
             xi_G=checks.station("xi_G", self.xi_G),
             omega_L=checks.positive("omega_L", self.omega_L, or_infinite=True),
-            g=checks.between("g", self.g, 0.0, LARGEST_G),
-            modes=checks.count("modes", self.modes, least=1, most=MOST_MODES),
+            g=checks.between("g", self.g, 0.0, MAX_G),
+            modes=checks.count("modes", self.modes, least=1, most=MAX_MODES),
         )
 
     @property
     def parameters(self) -> tuple[Parameter, ...]:
         """What may be varied; `modes` may not."""
-        return (*COMMON, Parameter("g", 0.0, LARGEST_G))
+        return (*COMMON, Parameter("g", 0.0, MAX_G))
 
     @property
     def depends_on_Omega(self) -> bool:
@@ -206,7 +206,7 @@ class SteppedBeam:
             area_ratio=checks.positive("area_ratio", self.area_ratio),
             inertia_ratio=checks.positive("inertia_ratio", self.inertia_ratio),
             omega_L=checks.positive("omega_L", self.omega_L, or_infinite=True),
-            modes=checks.count("modes", self.modes, least=1, most=MOST_MODES),
+            modes=checks.count("modes", self.modes, least=1, most=MAX_MODES),
         )
 
     @property

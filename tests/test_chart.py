@@ -16,7 +16,7 @@ from compare.charts.result import Chart
 from compare.charts.surface import evaluate
 from compare.tongues.on_chart import tongues
 from floquet import monodromy
-from floquet.galerkin import galerkin
+from floquet.weak_form import galerkin
 from hill import SteppedBeam, UniformBeam, characteristic
 from hill.averaging import half_width
 

@@ -227,14 +227,14 @@ def test_a_mended_compiler_is_asked_again(tmp_path: Path, monkeypatch: pytest.Mo
     assert works()
 
 
-@pytest.mark.parametrize("stage", ["ASKED", "BUILT"])
+@pytest.mark.parametrize("stage", ["VERSION_TIMEOUT", "BUILD_TIMEOUT"])
 def test_what_leaves_the_group_is_not_waited_for(
     stage: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A daemon that the compiler starts keeps its output open; it is not ours to end."""
     if shutil.which("setsid") is None:
         pytest.skip("no setsid")
-    quick = '[ "$1" = --version ] && exit 0' if stage == "BUILT" else ":"
+    quick = '[ "$1" = --version ] && exit 0' if stage == "BUILD_TIMEOUT" else ":"
     fake(tmp_path, monkeypatch, f"{quick}\nsetsid sleep 30 & echo $! > {tmp_path}/child; sleep 30")
     monkeypatch.setattr(c_kernel, stage, 0.5)
     started = time.monotonic()
@@ -250,7 +250,7 @@ def test_a_compiler_that_hangs_is_ended_with_its_children(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     fake(tmp_path, monkeypatch, f"sleep 300 & echo $! > {tmp_path}/child; sleep 300")
-    monkeypatch.setattr(c_kernel, "ASKED", 1.0)
+    monkeypatch.setattr(c_kernel, "VERSION_TIMEOUT", 1.0)
     started = time.monotonic()
     assert c_kernel.march(2, 1) is None
     assert time.monotonic() - started < 20.0

@@ -36,7 +36,7 @@ from compare.report.program.formats import F, lines
 from compare.report.program.listing import MOST_STEPS, NoBoundary, Stab, search
 from compare.report.program.muller import in_order
 from floquet import monodromy
-from floquet.galerkin import galerkin
+from floquet.weak_form import galerkin
 from hill import characteristic
 
 PROGRAMS = ("uniform", "stepped")

@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from floquet.galerkin import galerkin
+from floquet.weak_form import galerkin
 from hill import HillEquation, SteppedBeam, UniformBeam
 
 # The module, whatever name the package may give to the function in it.
-inside = importlib.import_module("floquet.galerkin")
+inside = importlib.import_module("floquet.weak_form")
 
 # Largest difference measured over the grid below, relative to the largest element of the matrix:
 # 6e-15 for F and G, 1.2e-14 for H (N = 20); the rest is for other BLAS and libm.

@@ -191,7 +191,7 @@ def test_tails(place: str, mutated: Any, least: float, monkeypatch: pytest.Monke
     """Each is needed, and a wrong one is no polynomial in z: the bound covers even that."""
     equations = on_the_chart("uniform", 10)
     right = polynomials(equations)
-    monkeypatch.setattr(batch, "POOR", np.inf)
+    monkeypatch.setattr(batch, "REFINE_ABOVE", np.inf)
     monkeypatch.setattr(folding, place, mutated(getattr(folding, place)))
     wrong = polynomials(equations)
     apart = np.abs(wrong.coefficients - right.coefficients).max(axis=1)
@@ -214,7 +214,7 @@ def test_liouville_notices_what_is_no_polynomial(
     found = polynomials(equations)
     assert len(handed_over) == 10
     assert meets_one_by_one(found, equations)
-    monkeypatch.setattr(batch, "POOR", np.inf)
+    monkeypatch.setattr(batch, "REFINE_ABOVE", np.inf)
     assert polynomials(equations).errors.min() > 1e-10
     assert len(handed_over) == 10
 

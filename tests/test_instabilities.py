@@ -13,7 +13,7 @@ from compare.tongues.curves import Curve, curves
 from compare.tongues.instabilities import Instability, instabilities
 from compare.tongues.on_chart import distinct, tongues
 from floquet import monodromy
-from floquet.galerkin import galerkin
+from floquet.weak_form import galerkin
 from hill import SteppedBeam, UniformBeam, characteristic
 
 BEAM = UniformBeam(T0=20.0, K_theta=0.5, xi_G=0.5)

@@ -5,7 +5,7 @@ import pytest
 from compare.report.tables import Row, all_rows
 from compare.report.terms import MoreTerms, with_more_terms
 from floquet import monodromy
-from floquet.galerkin import galerkin
+from floquet.weak_form import galerkin
 
 ROWS = {row.id: row for row in all_rows((3,))}
 WITH = [row for row in ROWS.values() if row.initial_conditions]

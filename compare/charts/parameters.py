@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from floquet.galerkin import galerkin
+from floquet.weak_form import galerkin
 from hill import HillEquation, SteppedBeam, UniformBeam, checks
 from hill.errors import LongitudinalResonance
 

@@ -13,7 +13,7 @@ from compare.report.program.deck import constants
 from compare.report.program.listing import stab
 from compare.report.recover import HALF_UNIT, T_AS_RUN, Z_AS_RUN
 from compare.report.tables import Row, corrected
-from floquet.galerkin import galerkin
+from floquet.weak_form import galerkin
 from hill import HillEquation, characteristic
 from hill.determinant import finite, residues
 from hill.stability import Verdict, stability_of

@@ -9,7 +9,7 @@ from compare.jobs.workers import MapLike, mapper
 from compare.report.row import Method, Outcome, check
 from compare.report.tables import TABLES, Row, all_rows
 from hill import checks
-from hill.beam_common import MOST_MODES
+from hill.beam_common import MAX_MODES
 
 
 @dataclass(frozen=True)
@@ -107,9 +107,7 @@ def verify(
     chosen = select(tables, rows)
     if method not in ("taylor", "cvodes"):
         raise ValueError(f"method = {method!r}: must be taylor or cvodes")
-    job = partial(
-        check, method=method, modes=checks.count("modes", modes, least=1, most=MOST_MODES)
-    )
+    job = partial(check, method=method, modes=checks.count("modes", modes, least=1, most=MAX_MODES))
     outcomes = []
     with mapper(workers, chunk=4) as run:
         for outcome in run(job, chosen):

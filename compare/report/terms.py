@@ -11,7 +11,7 @@ import numpy as np
 
 from compare.report.tables import Row
 from floquet import monodromy
-from floquet.galerkin import galerkin
+from floquet.weak_form import galerkin
 from hill import characteristic
 from hill.stability import Verdict, stability_of
 

@@ -26,7 +26,7 @@ COMPILERS = ("cc", "gcc", "clang")
 FLAGS = ("-O3", "-march=native", "-fno-math-errno", "-fPIC", "-shared", "-lm")
 
 # Sums kept at once, of 32 registers; the quickest of 8, 12, 16, 18 and 24 from 2 to 20 modes.
-MOST_SUMS = 16
+MAX_SUMS = 16
 
 # Bytes of the nearest cache that the coefficients of some columns may fill; 32 to 48 kB is usual.
 NEAREST_CACHE = 40_000
@@ -34,20 +34,20 @@ BYTES = 8 * 8
 """Of one number for eight points side by side."""
 
 # Seconds: a compiler says its version in a few hundredths, and builds 40 coordinates in ten.
-ASKED, BUILT = 5.0, 60.0
+VERSION_TIMEOUT, BUILD_TIMEOUT = 5.0, 60.0
 
 # Difference from numpy, of P, above which a build is not used.
-TRIED = 1e-10
+TRIAL_TOLERANCE = 1e-10
 # The same for what P's error is made of: the fastest motion is found by groups of points, and is up
 # to 1.5e-3 lower.
-TRIED_ERROR = 0.1
+TRIAL_ERROR_TOLERANCE = 0.1
 
 # Builds kept in mind; each is some kilobytes.
-MOST_KNOWN = 64
+MAX_KNOWN = 64
 _KNOWN: dict[tuple[str, int, int, int], March | None] = {}
 
 # The numbers of a point sit on the compiler's stack, 3 (2n)^2 of them.
-MOST_COORDINATES = 40
+MAX_COORDINATES = 40
 
 
 def compiler() -> str | None:
@@ -64,11 +64,11 @@ def march(n: int, terms: int) -> March | None:
     alone, for this process. A compiler that fails is asked again when it has changed.
     """
     command = compiler()
-    if command is None or n > MOST_COORDINATES:
+    if command is None or n > MAX_COORDINATES:
         return None
     identity = (command, os.stat(command).st_mtime_ns, n, terms)
     if identity not in _KNOWN:
-        if len(_KNOWN) >= MOST_KNOWN:
+        if len(_KNOWN) >= MAX_KNOWN:
             _KNOWN.clear()
         try:
             _KNOWN[identity] = _tried(_wrapped(_loaded(_built(command, n, terms))), n, terms)
@@ -93,8 +93,8 @@ def _tried(found: March, n: int, terms: int) -> March:
     apart = np.max(np.abs(mine.P - other.P), axis=1) / np.max(np.abs(mine.P), axis=1)
     # both are good to some ulps of P: 1e-14 at 40 coordinates
     parts = [(vars(mine)[k], vars(other)[k]) for k in ("sensitivity", "growth", "rate")]
-    bounds = all(np.allclose(x, y, rtol=TRIED_ERROR, atol=0.0) for x, y in parts)
-    if not (bounds and np.all(apart <= TRIED)):
+    bounds = all(np.allclose(x, y, rtol=TRIAL_ERROR_TOLERANCE, atol=0.0) for x, y in parts)
+    if not (bounds and np.all(apart <= TRIAL_TOLERANCE)):
         raise ValueError("the compiled march computes something else")
     return found
 
@@ -130,7 +130,7 @@ def _built(command: str, n: int, terms: int) -> Path:
     sizes |= {"COLUMNS": columns, "BLOCK": block}
     sizes |= {"RADII": len(RADII), "MAX_EXPONENT": int(MAX_EXPONENT)}
     options = [f"-D{name}={value}" for name, value in sizes.items()]
-    version = _run([command, "--version"], b"", ASKED)
+    version = _run([command, "--version"], b"", VERSION_TIMEOUT)
     key = hashlib.sha256(repr((source, command, version, options, FLAGS, _cpu())).encode())
     folder = _folder()
     target = folder / f"march-{n}-{terms}-{key.hexdigest()[:24]}.so"
@@ -140,7 +140,7 @@ def _built(command: str, n: int, terms: int) -> Path:
         os.close(handle)
         unfinished, digest = Path(name), Path(name).with_suffix(".sha256")
         try:
-            _run([command, "-x", "c", "-", "-o", name, *options, *FLAGS], source, BUILT)
+            _run([command, "-x", "c", "-", "-o", name, *options, *FLAGS], source, BUILD_TIMEOUT)
             digest.write_bytes(_digest(unfinished))
             # whatever the umask, nobody else may write to them
             unfinished.chmod(0o700)
@@ -184,9 +184,9 @@ def _run(words: list[str], given: bytes, seconds: float) -> bytes:
 def _blocks(n: int) -> tuple[int, int]:
     """Columns taken at once, and sums kept at once, a multiple of them."""
     fitting = NEAREST_CACHE // (BYTES * (ORDER + 1) * n)
-    most = min(max(fitting, 1), MOST_SUMS)
+    most = min(max(fitting, 1), MAX_SUMS)
     columns = max(c for c in range(1, most + 1) if 2 * n % c == 0)
-    rows = min(n, MOST_SUMS // columns)
+    rows = min(n, MAX_SUMS // columns)
     return columns, columns * rows
 
 

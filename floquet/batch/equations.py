@@ -27,7 +27,7 @@ WORTH_COMPILING = 5000
 
 # Equations that share their matrices by fewer than this, on average, go together unshared: to start
 # a group takes numpy as long as 50 more points, an unshared point a third longer than a shared one.
-FEW = 32
+MIN_GROUP = 32
 
 # Rounding, in ulps of the terms summed, for each radian of the fastest motion. Over 596 random
 # systems, held against 600-bit arithmetic, the true error was 0.39 of the bound at most by numpy,
@@ -35,7 +35,7 @@ FEW = 32
 ULPS = 12.0
 
 # Relative bound above which `monodromy` is asked, whose two runs know better.
-POOR = 1e-10
+REFINE_ABOVE = 1e-10
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,7 +97,7 @@ def polynomials(equations: Sequence[HillEquation], *, kernel: Kernel = "auto") -
     if (
         kernel != "compiled"
         and not any(e.H for e in equations)
-        and FEW * len(groups) > len(equations)
+        and MIN_GROUP * len(groups) > len(equations)
     ):
         return Polynomials(*_unlike(equations))
     coefficients, errors = np.empty((len(equations), n + 1)), np.empty(len(equations))
@@ -218,7 +218,7 @@ def _solve(
     errors[ordered] = ULPS * EPS * (2.0 + 2.0 * np.pi * found.rate) * found.sensitivity
     errors[ordered] += ULPS * EPS * data * size
     # as in `monodromy`: much growth makes the half period's inverse a poor one
-    poor = ~((found.growth < MAX_TERM_GROWTH) & (errors[ordered] <= POOR * size))
+    poor = ~((found.growth < MAX_TERM_GROWTH) & (errors[ordered] <= REFINE_ABOVE * size))
     for i in map(int, ordered[poor]):
         P[i], errors[i] = alone(i)
     return P, errors

@@ -6,11 +6,11 @@ import numpy as np
 
 from floquet.accuracy import SAFETY
 from floquet.arrays import EPS, Complex, Float
-from floquet.sensitivity.matrices import Run
+from floquet.sensitivity.matrices import MatrixGradient
 
 # A step turns the fastest motion by up to 2.3 rad, over which a term that swings twice as fast
 # averages to a third and hides what it is made of.
-HIDDEN = 4.0
+CANCELLATION = 4.0
 
 # Roots are told apart, from each other and from an edge, at this many of the radii that the error
 # of P leaves them. At the limit the eigenvectors are uncertain by a tenth.
@@ -32,19 +32,21 @@ class Roots:
 
 
 @dataclass(frozen=True, eq=False)
-class Moves:
+class EigenvalueGradients:
     """Flat gradients of some eigenvalues, and bounds on the moduli of their errors: (k, count)."""
 
     slope: Complex
     error: Float
 
 
-def moves(run: Run, check: Run, roots: Roots, wanted: list[int], ulps: float) -> Moves:
+def eigenvalue_gradients(
+    run: MatrixGradient, check: MatrixGradient, roots: Roots, wanted: list[int], ulps: float
+) -> EigenvalueGradients:
     """Gradients ``l dA r`` of the eigenvalues `wanted` of ``run.matrix``.
 
     Parameters
     ----------
-    run, check : Run
+    run, check : MatrixGradient
         The matrix twice.
     roots : Roots
         All its eigenvalues.
@@ -71,17 +73,17 @@ def moves(run: Run, check: Run, roots: Roots, wanted: list[int], ulps: float) ->
             slope, size = here.gradient(j)
             pulled[z] = slope, there.gradient(j)[0], size
     slope, other, size = map(np.array, zip(*pulled.values(), strict=True))
-    size *= HIDDEN
+    size *= CANCELLATION
     # first order: the eigenvectors turn by the error of A over the distance of the eigenvalues,
     # which adds what belongs to pairs of them; that is taken to be as large as the largest
     turn = here.mixing(EPS * ulps * run.scale)[wanted, None] * size.max(axis=0)
-    return Moves(slope, SAFETY * np.abs(slope - other) + EPS * ulps * size + turn)
+    return EigenvalueGradients(slope, SAFETY * np.abs(slope - other) + EPS * ulps * size + turn)
 
 
 class _Basis:
     """Left and right eigenvectors of a run's matrix, in the order of `values`."""
 
-    def __init__(self, run: Run, values: Complex) -> None:
+    def __init__(self, run: MatrixGradient, values: Complex) -> None:
         found, right = np.linalg.eig(run.matrix)
         nearest = np.argmin(np.abs(values[:, None] - found), axis=1)
         left = np.linalg.inv(right)[nearest]

@@ -20,7 +20,13 @@ from floquet.integrate.step_length import fastest_rate
 from floquet.integrate.taylor import Taylor
 from floquet.period import monodromy
 from floquet.sensitivity import matrices
-from floquet.sensitivity.eigenvalues import APART, Moves, Roots, leader, moves
+from floquet.sensitivity.eigenvalues import (
+    APART,
+    EigenvalueGradients,
+    Roots,
+    eigenvalue_gradients,
+    leader,
+)
 from hill import HillEquation
 
 # The run and the one it is checked by, as in `floquet.monodromy`: other steps.
@@ -107,7 +113,7 @@ def sensitivities(equation: HillEquation) -> Sensitivities:
         run, check = matrices.multipliers(equation, RUN), matrices.multipliers(equation, CHECK)
     else:
         first = matrices.half_period if m.half_period else matrices.whole_period
-        run, check = first(equation, RUN), matrices.as_it_stands(equation, CHECK)
+        run, check = first(equation, RUN), matrices.damped_whole_period(equation, CHECK)
     p, period = parameter_values(equation), 2.0 * np.pi / equation.Omega
     centre = sorted_eigenvalues(run.matrix)
     radius = discs_from_polynomial(centre, m.polynomial, m.errors).radius
@@ -116,10 +122,10 @@ def sensitivities(equation: HillEquation) -> Sensitivities:
     lead = _lead(roots, growth)
     wanted = [lead] if matrix and lead is not None else list(range(len(roots.values)))
     ulps = 8.0 + fastest_rate(terms(p, shape(equation)), p.C) * period
-    found = moves(run, check, roots, wanted, ulps)
+    found = eigenvalue_gradients(run, check, roots, wanted, ulps)
     slope, error = _of_T(equation, growth, lead, found, wanted)
     if matrix:
-        found = Moves(found.slope[:0], found.error[:0])
+        found = EigenvalueGradients(found.slope[:0], found.error[:0])
     return Sensitivities(
         T=m.T,
         z=m.z,
@@ -178,7 +184,11 @@ def _lead(roots: Roots, growth: _Growth) -> int | None:
 
 
 def _of_T(
-    equation: HillEquation, growth: _Growth, lead: int | None, found: Moves, wanted: list[int]
+    equation: HillEquation,
+    growth: _Growth,
+    lead: int | None,
+    found: EigenvalueGradients,
+    wanted: list[int],
 ) -> tuple[Float, Float]:
     """Flat gradient of T = (Omega/pi) ln R - eta, and bounds on its error."""
     dT, error = np.zeros(found.slope.shape[1]), np.zeros(found.slope.shape[1])

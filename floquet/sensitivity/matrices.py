@@ -14,14 +14,14 @@ from floquet.arrays import Float
 from floquet.integrate.ode import parameter_values, shape
 from floquet.integrate.taylor import Taylor
 from floquet.period import second_half
-from floquet.sensitivity.tape import Slopes, Tape, tape
+from floquet.sensitivity.tape import Gradient, Tape, tape
 from hill import HillEquation
 
 Pull = Callable[[Float], tuple[Float, Float]]
 
 
 @dataclass(frozen=True, eq=False)
-class Run:
+class MatrixGradient:
     """A matrix and its gradients.
 
     Attributes
@@ -40,7 +40,7 @@ class Run:
     pull: Pull
 
 
-def half_period(equation: HillEquation, method: Taylor) -> Run:
+def half_period(equation: HillEquation, method: Taylor) -> MatrixGradient:
     """A of Phi = S U^-1 S U, U over half a period in u."""
     t, n = _tape(equation, method, 0.5, undamped=True), len(equation.F)
     S = np.repeat([1.0, -1.0], [n, n])
@@ -52,17 +52,19 @@ def half_period(equation: HillEquation, method: Taylor) -> Run:
         back = first.T @ _corner(seed)
         return _flat(t, equation, back - S[:, None] * (back @ Phi.T) * S, in_u=True)
 
-    return Run(Phi[:n, :n], scale[:n, :n], pull)
+    return MatrixGradient(Phi[:n, :n], scale[:n, :n], pull)
 
 
-def whole_period(equation: HillEquation, method: Taylor) -> Run:
+def whole_period(equation: HillEquation, method: Taylor) -> MatrixGradient:
     """A of the whole period in u."""
     t, n = _tape(equation, method, 1.0, undamped=True), len(equation.F)
     block = t.end[:n, :n]
-    return Run(block, np.abs(block), lambda seed: _flat(t, equation, _corner(seed), in_u=True))
+    return MatrixGradient(
+        block, np.abs(block), lambda seed: _flat(t, equation, _corner(seed), in_u=True)
+    )
 
 
-def as_it_stands(equation: HillEquation, method: Taylor) -> Run:
+def damped_whole_period(equation: HillEquation, method: Taylor) -> MatrixGradient:
     """A from the whole period in q: u(0) = I and u'(0) = 0 are q(0) = I and q'(0) = -eta/2 I."""
     t, n, eta = _tape(equation, method, 1.0), len(equation.F), equation.damping
     swell = float(np.exp(0.5 * eta * t.time))
@@ -79,13 +81,13 @@ def as_it_stands(equation: HillEquation, method: Taylor) -> Run:
             moduli[k] += np.sum(np.abs(seed * term))
         return found, moduli
 
-    return Run(A, np.abs(A), pull)
+    return MatrixGradient(A, np.abs(A), pull)
 
 
-def multipliers(equation: HillEquation, method: Taylor) -> Run:
+def multipliers(equation: HillEquation, method: Taylor) -> MatrixGradient:
     """The monodromy matrix itself, for a damping matrix."""
     t = _tape(equation, method, 1.0)
-    return Run(t.end, np.abs(t.end), lambda seed: _flat(t, equation, seed))
+    return MatrixGradient(t.end, np.abs(t.end), lambda seed: _flat(t, equation, seed))
 
 
 def _tape(equation: HillEquation, method: Taylor, share: float, undamped: bool = False) -> Tape:
@@ -111,12 +113,13 @@ def _flat(
     # the period follows Omega, and so does omega_L: H without a common period has no z
     ratio = equation.ratio if equation.H else 0
 
-    def row(s: Slopes, time: float, eta: float) -> Float:
-        C = s.of.C if np.ndim(equation.eta) > 0 else np.trace(s.of.C)
-        damping = eta * np.trace(s.of.F) if in_u else C
-        H = s.of.H.reshape(n, t.size.terms, n).swapaxes(0, 1)
-        numbers = (s.of.Omega + ratio * s.of.omega_L + time * s.time, s.of.gamma)
-        return np.concatenate([np.ravel(x) for x in (*numbers, damping, s.of.F, s.of.G, H)])
+    def row(g: Gradient, time: float, eta: float) -> Float:
+        p = g.parameters
+        C = p.C if np.ndim(equation.eta) > 0 else np.trace(p.C)
+        damping = eta * np.trace(p.F) if in_u else C
+        H = p.H.reshape(n, t.size.terms, n).swapaxes(0, 1)
+        numbers = (p.Omega + ratio * p.omega_L + time * g.time, p.gamma)
+        return np.concatenate([np.ravel(x) for x in (*numbers, damping, p.F, p.G, H)])
 
     found, moduli = t.pull(seed)
     time = t.time / Omega

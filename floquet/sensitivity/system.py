@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from floquet.galerkin import galerkin
 from floquet.sensitivity.derivative import derivative
 from floquet.sensitivity.equation import Derivatives, sensitivities
+from floquet.weak_form import galerkin
 from hill import SteppedBeam, UniformBeam
 
 Complex = NDArray[np.complexfloating[Any, Any]]
@@ -79,7 +79,7 @@ def beam_sensitivities(
     Raises
     ------
     ValueError
-        As for `floquet.galerkin.galerkin` and `sensitivities`.
+        As for `floquet.weak_form.galerkin` and `sensitivities`.
     """
     model = galerkin(beam, Omega, gamma, eta)
     s = sensitivities(model)

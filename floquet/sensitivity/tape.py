@@ -18,18 +18,18 @@ from floquet.integrate.taylor import MAX_FOLD_STEPS, Taylor, folded, rounded_up
 
 
 @dataclass(frozen=True, eq=False)
-class Slopes:
+class Gradient:
     """Derivatives of one number with respect to the parameters and to the end time.
 
     Attributes
     ----------
-    of : Parameters
+    parameters : Parameters
         Arrays shaped like the parameters.
     time : float
         With respect to the time integrated over, the number of steps kept.
     """
 
-    of: Parameters
+    parameters: Parameters
     time: float
 
 
@@ -62,7 +62,7 @@ class Tape:
         """The fundamental matrix at `time`."""
         return self.states[-1]
 
-    def pull(self, seed: Float) -> tuple[Slopes, Slopes]:
+    def pull(self, seed: Float) -> tuple[Gradient, Gradient]:
         """Gradient of ``sum(seed * end)``, and the sum of the moduli of its terms.
 
         The second is what the rounding of the first is measured by: each step adds a term.
@@ -83,7 +83,7 @@ class Tape:
                 each = wide.reshape(len(wide), self.steps, -1)
                 totals[i] = totals[i] + each.sum(axis=1)
                 moduli[i] = moduli[i] + np.abs(each).sum(axis=1)
-        return _slopes(totals), _slopes(moduli)
+        return _gradient(totals), _gradient(moduli)
 
 
 def tape(method: Taylor, p: Parameters, size: Shape, time: float) -> Tape:
@@ -111,6 +111,8 @@ def _inputs(t: Tape, k: int) -> list[Float]:
     return [start, np.full((1, t.steps), h), *(np.tile(value, (1, t.steps)) for value in t.p)]
 
 
-def _slopes(found: list[Any]) -> Slopes:
+def _gradient(found: list[Any]) -> Gradient:
     F, G, H, C, *numbers = found[1:]
-    return Slopes(Parameters(F, G, H, C, *(float(x[0, 0]) for x in numbers)), float(found[0][0, 0]))
+    return Gradient(
+        Parameters(F, G, H, C, *(float(x[0, 0]) for x in numbers)), float(found[0][0, 0])
+    )

@@ -18,7 +18,7 @@ from hill import checks
 from hill.arrays import EPS, Complex, Float
 from hill.determinant import finite, residues
 from hill.determinant.finite import Blocks
-from hill.determinant.rounding import rounding
+from hill.determinant.rounding import coefficient_shifts
 from hill.equation import HillEquation
 from hill.stability import Stability, Verdict, stability_of
 
@@ -147,7 +147,7 @@ def _moved(system: Blocks, e: HillEquation, polynomial: Float) -> tuple[float, f
         z = np.exp(1j * np.pi * (np.arange(count) + turn) / count)
         alpha = np.arccos(z) / (2.0 * np.pi)
         try:
-            return rounding(system, size, given, alpha, np.polyval(polynomial, z))
+            return coefficient_shifts(system, size, given, alpha, np.polyval(polynomial, z))
         except np.linalg.LinAlgError:
             continue
     return float("inf"), float("inf")

@@ -36,7 +36,7 @@ SERIES = 40
 OVERFLOW = "the solution grows beyond what a float can hold within one period"
 
 # Its powers M**(2*SERIES) must stay below 1e308, at the finest level 1.5 M.
-MOST = 4000
+MAX_HARMONICS = 4000
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,15 +119,15 @@ def least_truncation(system: Blocks) -> int:
     Raises
     ------
     ValueError
-        More than `MOST` harmonics are needed.
+        More than `MAX_HARMONICS` harmonics are needed.
     """
     coupling = sum((np.abs(B) for B in system.B.values()), np.zeros_like(system.Fbar))
     strength = float(np.max(np.abs(np.linalg.eigvals(coupling)))) if system.B else 0.0
     M = int(2.0 * system.highest + 16.0 * np.sqrt(strength)) + 2 * system.reach + 30
-    if M > MOST:
+    if M > MAX_HARMONICS:
         raise ValueError(
-            f"too small for the determinant, which needs {M} harmonics of it (at most {MOST}): "
-            f"the highest frequency is {system.highest:.3g} Omega"
+            f"too small for the determinant, which needs {M} harmonics of it "
+            f"(at most {MAX_HARMONICS}): the highest frequency is {system.highest:.3g} Omega"
         )
     return M
 

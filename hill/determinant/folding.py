@@ -32,7 +32,7 @@ RUN_IN = 2
 
 # Gauss nodes for the integral of g from M + 1/2 on, where it is analytic to twice the interval's
 # length and more (M >= 2 w + 20): 5.8**-14 of it is left.
-NODES, LEFT = 7, 2e-11
+NODES, REMAINDER = 7, 2e-11
 _node, _weight = np.polynomial.legendre.leggauss(NODES)
 GAUSS = 0.5 * (_node + 1.0), 0.5 * _weight
 
@@ -46,7 +46,7 @@ EDGES = 0.5 + 0.5 * np.cos(np.pi * (np.arange(6) + 0.5) / 6)
 
 
 @dataclass(frozen=True, eq=False)
-class System:
+class BlockBatch:
     """Blocks of k equations: the last axis; points s are the one before.
 
     Attributes
@@ -69,20 +69,20 @@ class System:
     squares: Complex
     data: Float
 
-    def some(self, part: NDArray[np.int_]) -> "System":
+    def take(self, part: NDArray[np.int_]) -> "BlockBatch":
         """Some of the equations."""
         G = self.G if self.G.ndim == 2 else self.G[..., part]
-        return System(
+        return BlockBatch(
             self.Fbar[..., part], G, self.b2[part], self.squares[..., part], self.data[part]
         )
 
 
-def samples(system: System, alpha: Complex, M: int) -> tuple[Complex, Float]:
+def samples(system: BlockBatch, alpha: Complex, M: int) -> tuple[Complex, Float]:
     """prod_j (z - zeta_j) Delta(alpha) of every equation, and its relative truncation error.
 
     Parameters
     ----------
-    system : System
+    system : BlockBatch
     alpha : (c,) complex ndarray
         Points off the real axis, with abs(Re alpha) <= 1/2.
     M : int
@@ -101,7 +101,7 @@ def samples(system: System, alpha: Complex, M: int) -> tuple[Complex, Float]:
     return values, truncation
 
 
-def _determinants(system: System, alpha: Complex, M: int) -> Complex:
+def _determinants(system: BlockBatch, alpha: Complex, M: int) -> Complex:
     """Product of the folded blocks |m| <= M, each divided by m^2n (m = 0: by 1)."""
     n, count = len(system.Fbar), len(alpha)
     system = replace(system, Fbar=system.Fbar.astype(complex))
@@ -130,7 +130,7 @@ def _block_tail(squares: Complex, alpha: Complex, M: int) -> Complex:
     return -np.asarray(total).sum(axis=0)
 
 
-def _coupling_tail(system: System, alpha: Complex, M: int) -> tuple[Complex, Float]:
+def _coupling_tail(system: BlockBatch, alpha: Complex, M: int) -> tuple[Complex, Float]:
     """Sum of g(m + alpha) + g(m - alpha) over m > M, and a bound on its error."""
     edge = (M + EDGES)[:, None]
     correction, last = _differences(system, edge)
@@ -139,13 +139,13 @@ def _coupling_tail(system: System, alpha: Complex, M: int) -> tuple[Complex, Flo
     # the polynomial through the values at the edges, taken at M + 1/2 +- alpha
     wanted = (0.5 + alpha) ** powers + (0.5 - alpha) ** powers
     to_wanted = wanted @ np.linalg.inv(EDGES[:, None] ** powers)
-    left = LEFT + 0.05 / (10.0 + 0.5 * M) ** 6
+    left = REMAINDER + 0.05 / (10.0 + 0.5 * M) ** 6
     error = np.max(last + third + left * np.abs(integral), axis=0)
     # two ends, and twice what was left out
     return to_wanted @ (integral + correction), 4.0 * error
 
 
-def _integral(system: System, edge: Float) -> tuple[Float, Float]:
+def _integral(system: BlockBatch, edge: Float) -> tuple[Float, Float]:
     """Integral of g from the edge to infinity by s = edge/t; and of the first term left out of g.
 
     log det (1 - X), X = D(s)^-1 C(s + 1), is -tr X - tr X^2/2 - ...; X falls like s^-4.
@@ -165,7 +165,7 @@ def _integral(system: System, edge: Float) -> tuple[Float, Float]:
     return total, third
 
 
-def _differences(system: System, edge: Float) -> tuple[Float, Float]:
+def _differences(system: BlockBatch, edge: Float) -> tuple[Float, Float]:
     """What the midpoint rule adds to the integral, and the modulus of its last term.
 
     (1/24) d - (17/5760) d^3 + (367/967680) d^5, in central differences of g at the edge; the next
@@ -186,7 +186,7 @@ def _differences(system: System, edge: Float) -> tuple[Float, Float]:
 # ---- matrices side by side -----------------------------------------------------------------------
 
 
-def _block(system: System, s: Any, C: Any) -> Any:
+def _block(system: BlockBatch, s: Any, C: Any) -> Any:
     """D(s) - C."""
     shape = np.broadcast_shapes(system.Fbar.shape, s.shape)
     S = np.subtract(system.Fbar, C, out=np.empty(shape, system.Fbar.dtype))
@@ -196,14 +196,14 @@ def _block(system: System, s: Any, C: Any) -> Any:
     return S
 
 
-def _fold(system: System, s: Any, C: Any) -> tuple[Any, Any]:
+def _fold(system: BlockBatch, s: Any, C: Any) -> tuple[Any, Any]:
     """C(s) and det S(s) from C(s + 1)."""
     inverse, det = _invert(_block(system, s, C))
     inverse *= system.b2
-    return _between(system.G, inverse), det
+    return _sandwich(system.G, inverse), det
 
 
-def _between(G: Any, X: Any) -> Any:
+def _sandwich(G: Any, X: Any) -> Any:
     """G X G; where G is shared, by real products of large matrices."""
     if G.ndim > 2:
         return _product(_product(G, X), G)

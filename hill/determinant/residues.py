@@ -6,7 +6,7 @@ from hill.arrays import Complex, Float
 from hill.determinant.finite import Blocks
 from hill.equation import HillEquation
 
-MOST = 14
+MAX_HARMONICS = 14
 """The listing's largest M: 29 blocks of 3 rows just fit its 100 by 100 array."""
 
 # Two poles closer than this share of a period make residues larger than 1/APART that cancel; the
@@ -21,7 +21,7 @@ def report_rule(equation: HillEquation) -> tuple[int, ...]:
     """
     diagonal = np.diag(equation.F) - 0.25 * equation.damping**2
     root = np.sqrt(np.abs(diagonal))
-    return tuple(min(int((root.max() + r) / equation.Omega + 1.0), MOST) for r in root)
+    return tuple(min(int((root.max() + r) / equation.Omega + 1.0), MAX_HARMONICS) for r in root)
 
 
 def polynomial(system: Blocks, M: tuple[int, ...]) -> Float | None:

@@ -19,17 +19,17 @@ from hill.arrays import EPS, Complex, Float
 from hill.determinant.finite import Blocks
 
 # (F - eta^2/4)/Omega^2 takes four roundings of half an ulp each, B_p three.
-DATA = 2.0
+DATA_ULPS = 2.0
 
 # A row's own roundings, in ulps of its elements: the square, the subtraction, the elimination of
 # the rows before it.
-ROW = 2.0
+ROW_ULPS = 2.0
 
 # Harmonics beyond the highest frequency at which the rows' inverses have become 1/m^2.
-BEYOND = 6
+EXTRA_HARMONICS = 6
 
 
-def rounding(
+def coefficient_shifts(
     system: Blocks, size: Blocks, given: Blocks, alpha: Complex, values: Complex
 ) -> tuple[float, float]:
     """How far rounding moves any coefficient of P(z), to first order.
@@ -54,7 +54,7 @@ def rounding(
     """
     n, reach = system.n, max(system.reach, 1)
     strength = sum((np.abs(B) for B in system.B.values()), np.zeros_like(system.Fbar))
-    least = system.highest + 2.0 * np.sqrt(np.linalg.norm(strength, 2)) + BEYOND
+    least = system.highest + 2.0 * np.sqrt(np.linalg.norm(strength, 2)) + EXTRA_HARMONICS
     groups = 2 * int(np.ceil(least / reach)) + 1
     first = -(groups * reach) // 2
     m = np.arange(first, first + groups * reach).reshape(groups, reach)
@@ -74,7 +74,7 @@ def rounding(
         return np.abs(values) * found
 
     rows = np.einsum("cgjk,cgkj->cg", np.abs(inverse), np.abs(diagonal))
-    own = np.abs(values) * ROW * np.sqrt(np.sum(rows**2, axis=1)) + DATA * common(size)
+    own = np.abs(values) * ROW_ULPS * np.sqrt(np.sum(rows**2, axis=1)) + DATA_ULPS * common(size)
     return float(EPS * np.mean(own)), float(np.mean(common(given)))
 
 

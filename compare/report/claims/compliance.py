@@ -8,7 +8,7 @@ from compare.report.claims.cases import GAMMA, regions, resonances, uniform
 from compare.report.claims.finding import PRINTED, VISIBLE, Finding, Number, checks, graded, share
 from compare.report.claims.quadrature import GAUSS, wave
 from compare.report.claims.routes import RoutesDisagree, both
-from floquet.galerkin import galerkin
+from floquet.weak_form import galerkin
 from hill import UniformBeam
 
 # Closed form against quadrature, of integrals of order 10.

@@ -6,7 +6,7 @@ from scipy.special import jn_zeros, jv
 from compare.report.claims.cases import ETA, uniform
 from compare.report.claims.finding import VISIBLE, Finding, Number, checks, graded, share
 from compare.report.claims.routes import Beam, RoutesDisagree, both, frequencies, real_frequencies
-from floquet.galerkin import galerkin
+from floquet.weak_form import galerkin
 from hill import UniformBeam
 
 BUCKLING = 25.67

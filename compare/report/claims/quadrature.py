@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from compare.report.claims.routes import Both, solve
-from floquet.galerkin import galerkin
+from floquet.weak_form import galerkin
 from hill import HillEquation, UniformBeam
 from hill.matrices.integrals import sine_integral
 from hill.matrices.modes import UNIT, eigenvalue, slope

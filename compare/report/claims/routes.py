@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from compare.report.claims.finding import Number
 from floquet import monodromy
-from floquet.galerkin import galerkin
+from floquet.weak_form import galerkin
 from hill import HillEquation, SteppedBeam, UniformBeam, characteristic
 
 Beam = UniformBeam | SteppedBeam

@@ -13,11 +13,11 @@ from numpy.typing import NDArray
 
 from compare.tongues.boundaries import Family
 from floquet.batch import polynomials
-from floquet.galerkin import galerkin
 from floquet.integrate.ode import parameter_values, shape
 from floquet.integrate.step_length import perron_root
 from floquet.integrate.taylor import Taylor
 from floquet.period import MAX_TERM_GROWTH, second_half
+from floquet.weak_form import galerkin
 from hill import HillEquation, SteppedBeam, UniformBeam, characteristic
 
 Beam = UniformBeam | SteppedBeam

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from compare.report.program import listing
 from compare.report.program.listing import RIGID, Case, Stab, Stepped, Uniform
 from floquet import monodromy
-from floquet.galerkin import galerkin
+from floquet.weak_form import galerkin
 from hill import HillEquation, SteppedBeam, UniformBeam, characteristic
 
 Float = NDArray[np.floating[Any]]
