@@ -18,10 +18,10 @@ from compare.report.figures.compute import KINDS, compute, named, tasks
 from compare.report.figures.critical import BOTTOM, TOP
 from compare.report.figures.data import FigureData, Series, as_csv, from_csv
 from compare.report.figures.frequencies import loss
-from compare.report.figures.routes import equation, solve
+from compare.report.figures.one_route import T_of, equation, solve
 from compare.report.figures.sampling import adaptive
 from compare.report.tables import number, rows
-from compare.stability.indicators import growth, indicator
+from compare.stability.indicators import indicator
 from hill import characteristic
 from hill.averaging import modal
 
@@ -298,7 +298,7 @@ def test_a_half_period_that_cannot_be_inverted() -> None:
     """Beside a longitudinal resonance the solution grows by 1e9 and more in a period."""
     beam = replace(beam_of(FIGURES[28]), omega_L=0.383, g=0.0)
     e = equation("floquet", beam, 0.38254, GAMMA)
-    T = growth(solve("floquet", [e]), np.array([e.Omega]))[0]
+    T = T_of("floquet", solve("floquet", [e]), np.array([e.Omega]))[0]
     from floquet import monodromy
 
     assert pytest.approx(monodromy(e).T, rel=1e-6) == T

@@ -158,9 +158,9 @@ def deepest(f: Function, lo: float, hi: float) -> tuple[float, float]:
     return centre, value
 
 
-def zero(f: Function, lo: float, hi: float) -> float:
-    """The sign change of f between lo and hi."""
-    return float(brentq(lambda x: f(np.array([x]))[0], lo, hi, xtol=1e-13, rtol=1e-14))
+def zero(f: Function, lo: float, hi: float, *, xtol: float = 1e-13, rtol: float = 1e-14) -> float:
+    """The sign change of f between lo and hi, to the larger of `xtol` and its share `rtol`."""
+    return float(brentq(lambda x: f(np.array([x]))[0], lo, hi, xtol=xtol, rtol=rtol))
 
 
 def crossings(f: Function, x: Float) -> tuple[list[float], list[float]]:

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from compare.report.figures.catalogue import GAMMA, Figure
-from compare.report.figures.routes import Beam, Route, family
+from compare.report.figures.one_route import Beam, RouteName, family
 from compare.report.tables import Row, rows
 from compare.tongues.boundaries import Family
 from hill import HillEquation, SteppedBeam, UniformBeam
@@ -24,7 +24,7 @@ def beam_of(figure: Figure, **changes: float) -> Beam:
     return SteppedBeam(**parameters) if figure.stepped else UniformBeam(**parameters)
 
 
-def family_of(figure: Figure, route: Route, eta: float = 0.0, g: float = 0.0) -> Family:
+def family_of(figure: Figure, route: RouteName, eta: float = 0.0, g: float = 0.0) -> Family:
     """Its equations along T0 at the tables' gamma, or along gamma at their T0."""
     base = beam_of(figure, g=g) if g else beam_of(figure)
     if figure.along == "T0":

@@ -7,9 +7,8 @@ import numpy as np
 from compare.report.figures.beams import beam_of, inner, printed, resonance_named, same, spread
 from compare.report.figures.catalogue import GAMMA, ORDER, Figure
 from compare.report.figures.data import FigureData, Float, Series, largest
-from compare.report.figures.routes import Route, equation, solve
+from compare.report.figures.one_route import RouteName, T_of, equation, solve
 from compare.report.figures.sampling import adaptive
-from compare.stability.indicators import growth
 from hill.averaging import modal
 
 # The top of Figure 26. Marks keep below it: where P spans twenty powers of ten, Hill's route says
@@ -28,9 +27,10 @@ def of_longitudinal_frequency(figure: Figure, detail: float = 1.0) -> FigureData
     for name in ORDER:
         Omega = resonance_named(name).Omega(modal(beam_of(figure).equation(1.0, 0.0))[0])
 
-        def T_x(route: Route, omega_L: Float, Omega: float = Omega) -> Float:
+        def T_x(route: RouteName, omega_L: Float, Omega: float = Omega) -> Float:
             beams = [beam_of(figure, omega_L=float(x)) for x in omega_L]
-            return growth(solve(route, [equation(route, b, Omega, GAMMA) for b in beams]), Omega)
+            P = solve(route, [equation(route, b, Omega, GAMMA) for b in beams])
+            return T_of(route, P, Omega)
 
         count, far = spread(24, detail, 8), figure.span[1] / Omega - 1.0
         below = Omega * (1.0 - np.geomspace(CLOSEST, 1.0 - START, count)[::-1])
@@ -74,7 +74,7 @@ def integral(figure: Figure, detail: float = 1.0) -> FigureData:
     return FigureData(figure.number, tuple(series), "the integral", largest(differences))
 
 
-def _phi(figure: Figure, route: Route, sigma: Float, g: float) -> Float:
+def _phi(figure: Figure, route: RouteName, sigma: Float, g: float) -> Float:
     """G_(N+1,N+1) is 12 T0/lambda_1^4 times (1 + K_theta)/2 less the integral (4.5.26).
 
     Two values of K_theta give the factor, and with it the integral, without another formula.

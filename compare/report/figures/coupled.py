@@ -7,8 +7,8 @@ import numpy as np
 from compare.report.figures.beams import RESONANCES, beam_of, family_of, spread
 from compare.report.figures.catalogue import GAMMA, Figure
 from compare.report.figures.data import FigureData, Float, Series, largest
+from compare.report.figures.one_route import RouteName, equation, solve
 from compare.report.figures.regions import edge, expected, marks, parameters, to_zero
-from compare.report.figures.routes import Route, equation, solve
 from compare.stability.indicators import crossings, indicator, zero
 from compare.tongues.boundaries import Tongue, follow
 from hill.averaging import Resonance
@@ -153,7 +153,7 @@ def towards_pole(figure: Figure, window: Window, start: float, T0: float) -> flo
 
 
 def inside(
-    figure: Figure, window: Window, route: Route, g: float, T0: float, Omega: Float
+    figure: Figure, window: Window, route: RouteName, g: float, T0: float, Omega: Float
 ) -> Float:
     """Negative where unstable."""
     beam = beam_of(figure, T0=T0, g=g)
@@ -167,8 +167,8 @@ def _marks(figure: Figure, window: Window, g: float, piece: Piece) -> tuple[Floa
     for i in (len(piece.y) // 2, len(piece.y) - 2):
         width = float(piece.upper[i] - piece.lower[i])
 
-        def f(x: float, y: float = float(piece.y[i])) -> float:
-            return float(inside(figure, window, "hill", g, y, np.array([x]))[0])
+        def f(x: Float, y: float = float(piece.y[i])) -> Float:
+            return inside(figure, window, "hill", g, y, x)
 
         for e in (float(piece.lower[i]), float(piece.upper[i])):
             if e != window.pole:

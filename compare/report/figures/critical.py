@@ -3,13 +3,13 @@
 from collections.abc import Callable
 
 import numpy as np
-from scipy.optimize import brentq
 
 from compare.report.figures.beams import beam_of, inner, printed, resonance_named, same, spread
 from compare.report.figures.catalogue import GAMMA, Figure
 from compare.report.figures.data import FigureData, Float, Series, largest
-from compare.report.figures.routes import Route, equation, solve
-from compare.stability.indicators import Function, crossings, growth, interpolate
+from compare.report.figures.one_route import RouteName, T_of, equation, solve
+from compare.report.figures.regions import FINEST
+from compare.stability.indicators import Function, crossings, interpolate, zero
 from hill.averaging import modal
 
 TOP, BOTTOM = "T_x", "critical"
@@ -30,9 +30,10 @@ def critical(figure: Figure, detail: float = 1.0) -> FigureData:
     for T0 in figure.values:
         Omega = _resonance(figure, T0)
         P = interpolate(_along_gamma("floquet", figure, T0, Omega), 0.0, gamma_end)
-        T = growth(P(gammas), Omega)
+        T = T_of("floquet", P(gammas), Omega)
         chosen = inner(len(gammas), 4)
-        marks = growth(_along_gamma("hill", figure, T0, Omega)(gammas[chosen]), Omega)
+        at_marks = _along_gamma("hill", figure, T0, Omega)(gammas[chosen])
+        marks = T_of("hill", at_marks, Omega)
         name = f"T0 = {T0:g}"
         series.append(Series(name, "curve", "floquet", gammas, T, panel=TOP))
         series.append(Series(name, "mark", "hill", gammas[chosen], marks, panel=TOP))
@@ -51,7 +52,7 @@ def _resonance(figure: Figure, T0: float) -> float:
 
 
 def _along_gamma(
-    route: Route, figure: Figure, T0: float, Omega: float, eta: float = 0.0
+    route: RouteName, figure: Figure, T0: float, Omega: float, eta: float = 0.0
 ) -> Callable[[Float], Float]:
     """P at one thrust and the resonance's Omega, as a function of gamma."""
     beam = beam_of(figure, T0=T0)
@@ -103,22 +104,26 @@ def _closing(figure: Figure, absent: float, present: float) -> dict[float, float
     return found
 
 
-def _damped(figure: Figure, T0: float, route: Route) -> Function:
+def _damped(figure: Figure, T0: float, route: RouteName) -> Function:
     """T of the damped equation at the resonance, as a function of gamma."""
     Omega = _resonance(figure, T0)
     P = _along_gamma(route, figure, T0, Omega, figure.eta)
-    return lambda gammas: growth(P(gammas), Omega, figure.eta)
+    return lambda gammas: T_of(route, P(gammas), Omega, figure.eta)
 
 
 def _smallest(figure: Figure, T0: float) -> float | None:
     """The smallest gamma that is unstable, or None within the range."""
     Omega, end = _resonance(figure, T0), figure.span[1]
     P = interpolate(_along_gamma("floquet", figure, T0, Omega, figure.eta), 0.0, end)
-    falls, _ = crossings(lambda x: -growth(P(x), Omega, figure.eta), np.linspace(0.0, end, FINE))
+
+    def decay(x: Float) -> Float:
+        return -T_of("floquet", P(x), Omega, figure.eta)
+
+    falls, _ = crossings(decay, np.linspace(0.0, end, FINE))
     return falls[0] if falls else None
 
 
 def _by_hill(figure: Figure, T0: float, gamma: float) -> float:
     """The same by the other route, from a bracket about it."""
     T = _damped(figure, T0, "hill")
-    return float(brentq(lambda x: T(np.array([x]))[0], 0.99 * gamma, 1.01 * gamma, xtol=1e-13))
+    return zero(T, 0.99 * gamma, 1.01 * gamma, rtol=FINEST)

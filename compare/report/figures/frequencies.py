@@ -10,7 +10,7 @@ from scipy.optimize import brentq
 from compare.report.figures.beams import beam_of, inner, spread
 from compare.report.figures.catalogue import Figure
 from compare.report.figures.data import FigureData, Float, Series, largest
-from compare.report.figures.routes import Beam, equation
+from compare.report.figures.one_route import Beam, equation
 from hill.averaging import modal
 
 Complex = NDArray[np.complex128]

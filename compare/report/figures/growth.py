@@ -8,10 +8,10 @@ import numpy as np
 from compare.report.figures.beams import beam_of, inner, nearest, printed, resonance_named, spread
 from compare.report.figures.catalogue import GAMMA, ORDER, Figure
 from compare.report.figures.data import FigureData, Float, Series, largest
-from compare.report.figures.routes import Beam, Route, equation, solve
+from compare.report.figures.one_route import Beam, RouteName, T_of, equation, solve
 from compare.report.figures.sampling import adaptive
 from compare.report.tables import Row, number
-from compare.stability.indicators import Function, crossings, growth, interpolate_in_Omega
+from compare.stability.indicators import Function, crossings, interpolate_in_Omega
 from hill.averaging import half_width, modal
 
 # T below this is zero: z at the edge of a tongue is known to 1e-14, and T like its square root.
@@ -49,7 +49,7 @@ def near_resonances(figure: Figure, detail: float = 1.0) -> FigureData:
                 unstable = np.flatnonzero(y > NOTHING)
                 chosen = unstable[inner(len(unstable), 7)]
                 other = [equation("floquet", beam, float(v), GAMMA) for v in x[chosen]]
-                T = growth(solve("floquet", other), x[chosen])
+                T = T_of("floquet", solve("floquet", other), x[chosen])
                 series.append(Series(name, "mark", "floquet", x[chosen], T, panel=name))
                 differences.append(T - y[chosen])
         x, y = np.array([_Omega(row) for row in own]), np.array([row.T for row in own])
@@ -68,8 +68,8 @@ def _curve(beam: Beam, eta: float, lo: float, hi: float, detail: float) -> tuple
         return solve("hill", [equation("hill", beam, float(v), GAMMA, eta) for v in x])
 
     P = interpolate_in_Omega(exact, lo, hi)
-    x = stations(lambda s: growth(P(s), s), lo, hi, detail)
-    return x, growth(P(x), x, eta)
+    x = stations(lambda s: T_of("hill", P(s), s), lo, hi, detail)
+    return x, T_of("hill", P(x), x, eta)
 
 
 def stations(T: Function, lo: float, hi: float, detail: float) -> Float:
@@ -90,8 +90,9 @@ def near_longitudinal_resonance(figure: Figure, detail: float = 1.0) -> FigureDa
     for g in figure.values:
         beam = beam_of(figure, g=g)
 
-        def T(route: Route, x: Float, beam: Beam = beam) -> Float:
-            return growth(solve(route, [equation(route, beam, float(v), GAMMA) for v in x]), x)
+        def T(route: RouteName, x: Float, beam: Beam = beam) -> Float:
+            P = solve(route, [equation(route, beam, float(v), GAMMA) for v in x])
+            return T_of(route, P, x)
 
         for part in _sides(figure, g, detail):
             x, y = adaptive(partial(T, "floquet"), part, HIGHEST)

@@ -1,26 +1,26 @@
 """Regions of instability in Omega and T0 or gamma: Figures 9, 10, 15, 16 and 18, 19, 24, 25."""
 
-from collections.abc import Callable
 from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import brentq
 
 from compare.report.figures.beams import RESONANCES, THIRD, family_of, printed, spread
 from compare.report.figures.catalogue import FIGURES, Figure
 from compare.report.figures.data import FigureData, Float, Series, largest
 from compare.report.tables import number
-from compare.stability.indicators import indicator
+from compare.stability.indicators import Function, indicator, zero
 from compare.tongues.boundaries import Cutter, Tongue, follow
 from hill.averaging import Resonance, half_width
 
 # Below this share of the widest tongue, first-order theory is taken to give none.
-NONE = 1e-6
+NEGLIGIBLE_WIDTH = 1e-6
 # A mark is solved for within these shares of the tongue's width about the curve, the first that
 # brackets a sign change: a wide bracket may hold the edge of a narrow tongue of higher order.
 BRACKETS = (1e-4, 1e-3, 1e-2)
 MARKS = 3
+# As near as a float is to the zero: marks are held against the curves.
+FINEST = 4.0 * float(np.finfo(float).eps)
 
 
 def regions(figure: Figure, detail: float = 1.0) -> FigureData:
@@ -100,7 +100,7 @@ def expected(figure: Figure, resonance: Resonance) -> bool:
         Omega = Cutter(family, resonance).Omega(float(y))
         if Omega > 0.0:
             widths.append(half_width(resonance, family.equation(Omega, float(y))) / Omega)
-    return max(widths, default=0.0) > NONE
+    return max(widths, default=0.0) > NEGLIGIBLE_WIDTH
 
 
 def to_zero(figure: Figure, tongue: Tongue) -> Tongue:
@@ -131,9 +131,8 @@ def marks(
     for i in chosen:
         y, width = float(tongue.y[i]), float(tongue.upper[i] - tongue.lower[i])
 
-        def f(Omega: float, y: float = y) -> float:
-            P = family.along(np.array([Omega]), y)
-            return float(indicator(kind, P, np.array([Omega]), figure.eta)[0])
+        def f(Omega: Float, y: float = y) -> Float:
+            return indicator(kind, family.along(Omega, y), Omega, figure.eta)
 
         solved.append([edge(f, float(e[i]), width) for e in (tongue.lower, tongue.upper)])
     edges = np.array(solved).reshape(-1, 2).T
@@ -150,7 +149,7 @@ def evenly(indices: NDArray[np.intp], y: Float, count: int) -> NDArray[np.intp]:
     return np.unique([indices[np.abs(y[indices] - t).argmin()] for t in targets])
 
 
-def edge(f: Callable[[float], float], near: float, width: float) -> float:
+def edge(f: Function, near: float, width: float) -> float:
     """The zero nearest by.
 
     Raises
@@ -160,8 +159,8 @@ def edge(f: Callable[[float], float], near: float, width: float) -> float:
     """
     for share in BRACKETS:
         lo, hi = near - share * width, near + share * width
-        if f(lo) * f(hi) < 0.0:
-            return float(brentq(f, lo, hi, xtol=1e-14))
+        if np.prod(f(np.array([lo, hi]))) < 0.0:
+            return zero(f, lo, hi, xtol=1e-14, rtol=FINEST)
     raise ValueError(f"Omega = {near:g}: the routes disagree about this edge")
 
 
