@@ -1,9 +1,7 @@
 """A system, its forcing and the axes of its chart, from a TOML file."""
 
-import difflib
 import math
-import tomllib
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import MISSING, dataclass, field, fields
 from pathlib import Path
 from typing import Any
@@ -13,10 +11,13 @@ from numpy.typing import NDArray
 
 from hill import SteppedBeam, UniformBeam, checks
 from hill.system import FORCING, MatrixSystem, System, varied
+from hill.toml import content as toml
+from hill.toml import one_of, only, table, unreadable
+from hill.vehicle import file as vehicle_file
 
 Float = NDArray[np.float64]
 
-SECTIONS = ("kind", "system", "forcing", "axis", "title")
+SECTIONS = ("kind", "forcing", "axis", "title")
 MATRICES = ("F", "G", "M")
 TERMS = ("F_terms", "G_terms")
 
@@ -74,34 +75,16 @@ def with_settings(found: Described, settings: Mapping[str, float]) -> Described:
     return Described(varied(found.system, own), forcing, found.axes, found.kind, found.title)
 
 
-def one_of(word: str, known: Sequence[str]) -> str:
-    """What would be right in place of a word, the nearest first."""
-    near = difflib.get_close_matches(word, known, 1)
-    text = f"must be one of {', '.join(known)}" if known else "must not be there"
-    return f"did you mean {near[0]}? It {text}" if near else text
-
-
-def toml(path: Path) -> dict[str, Any]:
-    """What a TOML file holds, or one line that says why it cannot be had."""
-    try:
-        return tomllib.loads(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        reason = (error.strerror or str(error)).lower()
-        raise ValueError(f"{path}: cannot be read ({reason})") from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise ValueError(f"{path}: is not TOML ({error})") from None
-    except RecursionError:
-        raise ValueError(f"{path}: is nested too deeply") from None
-
-
 def _described(content: dict[str, Any], path: Path) -> Described:
-    _only(content, SECTIONS, "")
     kind = content.get("kind")
+    keys = OWN_KEYS.get(str(kind), ())
+    if str(kind) in KINDS or kind is None:
+        only(content, (keys or ("system",)) + SECTIONS, "")
     if not isinstance(kind, str) or kind not in KINDS:
         raise ValueError(f"kind = {kind!r}: {one_of(str(kind), tuple(KINDS))}")
-    own = table(content, "system")
+    own = {k: content[k] for k in keys if k in content} if keys else table(content, "system")
     forcing = table(content, "forcing")
-    _only(forcing, FORCING, "forcing.")
+    only(forcing, FORCING, "forcing.")
     axes = content.get("axis", [])
     if not isinstance(axes, list):
         raise ValueError("axis: must be an array of tables, [[axis]]")
@@ -112,20 +95,6 @@ def _described(content: dict[str, Any], path: Path) -> Described:
         kind=kind,
         title=str(content.get("title", path.stem)),
     )
-
-
-def table(content: dict[str, Any], name: str, path: Path | None = None) -> dict[str, Any]:
-    """A table of a file's content, empty where it is not there."""
-    found = content.get(name, {})
-    if not isinstance(found, dict):
-        raise ValueError(f"{f'{path}: ' if path else ''}{name}: must be a table, [{name}]")
-    return dict(found)
-
-
-def _only(table: Mapping[str, Any], known: Sequence[str], where: str) -> None:
-    for name in table:
-        if name not in known:
-            raise ValueError(f"{where}{name}: {one_of(name, known)}")
 
 
 def _axis(axis: Any) -> tuple[str, float, float, int]:
@@ -139,7 +108,7 @@ def _axis(axis: Any) -> tuple[str, float, float, int]:
 def _beam(kind: Any) -> Callable[[dict[str, Any], Path], Any]:
     def make(own: dict[str, Any], _: Path) -> Any:
         names = [f.name for f in fields(kind)]
-        _only(own, names, "system.")
+        only(own, names, "system.")
         needed = [f.name for f in fields(kind) if f.name not in own and _required(f)]
         if needed:
             raise ValueError(f"system.{needed[0]}: has no value")
@@ -154,7 +123,7 @@ def _required(f: Any) -> bool:
 
 def _matrices(own: dict[str, Any], folder: Path) -> MatrixSystem:
     known = (*MATRICES, "H", "omega_L", *TERMS, "values", "frequency_names")
-    _only(own, known, "system.")
+    only(own, known, "system.")
     for name in ("F", "G"):
         if name not in own:
             raise ValueError(f"system.{name}: has no value")
@@ -208,8 +177,7 @@ def matrix(name: str, value: Any, folder: Path) -> Float:
     try:
         found = reader(path, array)
     except OSError as error:
-        reason = (error.strerror or str(error)).lower()
-        raise ValueError(f"{name} = {value!r}: cannot be read ({reason})") from None
+        raise ValueError(f"{name} = {value!r}: {unreadable(error)}") from None
     return checks.square(name, found)
 
 
@@ -263,4 +231,7 @@ KINDS: dict[str, Callable[[dict[str, Any], Path], Any]] = {
     "uniform": _beam(UniformBeam),
     "stepped": _beam(SteppedBeam),
     "matrices": _matrices,
+    "vehicle": vehicle_file.vehicle,
 }
+OWN_KEYS = {"vehicle": vehicle_file.KEYS}
+"""Kinds whose content stands at the top of the file instead of in [system]."""

@@ -6,18 +6,28 @@ from hill.equation import HillEquation
 from hill.errors import LongitudinalResonance, Refused
 from hill.periodic import Fourier, PeriodicEquation
 from hill.system import MatrixSystem, Parameter, System
+from hill.vehicle.parts import Damping, PointMass, Section, Sensor, Thrust
+from hill.vehicle.units import Units
+from hill.vehicle.vehicle import Vehicle
 
 __all__ = [
     "Characteristic",
+    "Damping",
     "Fourier",
     "HillEquation",
     "LongitudinalResonance",
     "MatrixSystem",
     "Parameter",
     "PeriodicEquation",
+    "PointMass",
     "Refused",
+    "Section",
+    "Sensor",
     "SteppedBeam",
     "System",
+    "Thrust",
     "UniformBeam",
+    "Units",
+    "Vehicle",
     "characteristic",
 ]

@@ -6,8 +6,9 @@ from typing import Any
 
 from compare.charts.parameters import FORCING, Axis, Beam
 from compare.report.tables import STEPPED, UNIFORM
-from compare.system_file import one_of, table, toml
 from hill import SteppedBeam, UniformBeam
+from hill.toml import content as toml
+from hill.toml import one_of, table
 
 BEAMS: dict[str, type[Beam]] = {"uniform": UniformBeam, "stepped": SteppedBeam}
 REPORT = {"uniform": UNIFORM, "stepped": STEPPED}

@@ -1,0 +1,1 @@
+"""A vehicle of any sections: its data, its exact modes, its matrices."""

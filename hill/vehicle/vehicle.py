@@ -1,0 +1,244 @@
+"""A vehicle: sections, masses, thrust, control and damping; data that both routes share."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import accumulate
+from pathlib import Path
+from typing import Any, Literal, TypeVar
+
+from hill import checks
+from hill.system import Parameter
+from hill.toml import one_of
+from hill.vehicle.parts import LARGEST_G, Damping, PointMass, Section, Sensor, Thrust
+from hill.vehicle.units import Units, checked
+from hill.vehicle.vary import varied, varying
+
+End = Literal["free", "pinned", "clamped"]
+ENDS = ("free", "pinned", "clamped")
+AxialDamping = Literal["report", "hysteretic"]
+AXIAL_DAMPING = ("report", "hysteretic")
+
+MOST_MODES = 60
+"""An equation of more coordinates takes either route minutes."""
+
+MOST_SECTIONS = 5000
+
+# Stations are sums of lengths: the aft end as typed may miss the sum by its rounding.
+STATION = 1e-12
+
+UNLOADED, UNDAMPED, SI = Thrust(), Damping(), Units()
+
+Part = TypeVar("Part", PointMass, Sensor)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Vehicle:
+    """A beam of any sections, pushed toward its nose by a gimbaled, pulsating thrust.
+
+    Stations count from the nose, x = 0, to the aft end, x = `length`; the deflection y and the
+    rotation psi = y' are the report's. All numbers are in one consistent set of units.
+
+    The axial force P, compression positive, holds the vehicle's inertia in steady acceleration:
+    ahead of the thrust it is T0 times the share of the mass ahead of x, behind it that less T0.
+    Where an end is pinned or clamped that end takes the thrust (the nose, if both are): P is T0
+    between the thrust and a held nose, -T0 between the thrust and a held aft end, 0 beyond, and
+    nothing else.
+
+    Parameters
+    ----------
+    sections : sequence of Section
+        From the nose to the aft end.
+    masses : sequence of PointMass, optional
+    ends : (str, str), optional
+        Nose and aft end, each "free", "pinned" or "clamped"; free and free by default.
+    thrust : Thrust, optional
+    sensors : sequence of Sensor, optional
+        What turns the gimbal; none by default.
+    servo_time : float, optional
+        Time constant of a servo of first order between the sensors' sum and the gimbal's angle; 0
+        by default, the gimbal follows at once.
+    damping : Damping, optional
+    g : float, optional
+        Structural damping of the axial vibration; it matters where EA is finite.
+    axial_damping : {"report", "hysteretic"}, optional
+        In the axial vibration Omega^2 is replaced by ``Omega^2 - i g omega_L^2`` (4.2.34), omega_L
+        the vehicle's lowest axial frequency; or by ``Omega^2/(1 + i g)``, that is EA (1 + i g).
+    quadrature_force : bool, optional
+        Keep the sine part of the damped axial force, which (4.2.39) drops. True by default.
+    units : Units or str, optional
+        "SI" by default.
+    modes : int, optional
+        N, the number of elastic modes kept; a free or a once pinned vehicle has a rotation besides.
+
+    Raises
+    ------
+    ValueError
+        A parameter out of range, by name; a mass, sensor or thrust outside the vehicle.
+    """
+
+    sections: tuple[Section, ...]
+    masses: tuple[PointMass, ...] = ()
+    ends: tuple[End, End] = ("free", "free")
+    thrust: Thrust = UNLOADED
+    sensors: tuple[Sensor, ...] = ()
+    servo_time: float = 0.0
+    damping: Damping = UNDAMPED
+    g: float = 0.0
+    axial_damping: AxialDamping = "report"
+    quadrature_force: bool = True
+    units: Units = SI
+    modes: int = 4
+
+    def __post_init__(self) -> None:
+        checks.store(
+            self,
+            sections=_items("sections", self.sections, Section, most=MOST_SECTIONS),
+            ends=_ends(self.ends),
+            servo_time=checks.between("servo_time", self.servo_time, 0.0, math.inf),
+            g=checks.between("g", self.g, 0.0, LARGEST_G),
+            units=checked(self.units),
+            modes=checks.count("modes", self.modes, least=1, most=MOST_MODES),
+        )
+        if not self.sections:
+            raise ValueError("sections: must be at least one")
+        if self.axial_damping not in AXIAL_DAMPING:
+            raise ValueError(
+                f"axial_damping = {self.axial_damping!r}: "
+                f"{one_of(str(self.axial_damping), AXIAL_DAMPING)}"
+            )
+        if not isinstance(self.quadrature_force, bool):
+            raise ValueError(f"quadrature_force = {self.quadrature_force!r}: must be true or false")
+        for name, kind in (("thrust", Thrust), ("damping", Damping)):
+            if not isinstance(getattr(self, name), kind):
+                raise ValueError(f"{name} = {getattr(self, name)!r}: must be a {kind.__name__}")
+        station = self.thrust.station
+        checks.store(
+            self,
+            masses=self._on_board("masses", _items("masses", self.masses, PointMass)),
+            sensors=self._on_board("sensors", _items("sensors", self.sensors, Sensor)),
+            thrust=self.thrust
+            if station is None
+            else replace(self.thrust, station=self._station("thrust.station", station)),
+        )
+        matrix = self.damping.matrix
+        if matrix is not None and len(matrix) != self.coordinates:
+            raise ValueError(
+                f"damping.matrix has {len(matrix)} rows: must have {self.coordinates}, "
+                f"one for each of {self.modes} modes"
+                + (" and the rotation" if self.coordinates > self.modes else "")
+            )
+
+    @classmethod
+    def from_file(cls, path: str | Path) -> "Vehicle":
+        """A vehicle from a TOML file.
+
+        Raises
+        ------
+        ValueError
+            The file cannot be read or says something that is not understood: one line with file,
+            key and value.
+        """
+        from hill.vehicle.file import read
+
+        return read(Path(path))
+
+    # ---- geometry -------------------------------------------------------------------------------
+
+    @property
+    def edges(self) -> tuple[float, ...]:
+        """Stations where sections begin and end, (sections + 1,), from 0 to `length`."""
+        return tuple(accumulate((s.length for s in self.sections), initial=0.0))
+
+    @property
+    def length(self) -> float:
+        """The aft end's station."""
+        return self.edges[-1]
+
+    @property
+    def thrust_station(self) -> float:
+        """Where the thrust acts."""
+        return self.length if self.thrust.station is None else self.thrust.station
+
+    @property
+    def rotates(self) -> bool:
+        """Whether there is a rigid rotation: free at both ends, or pinned at one and else free."""
+        return "free" in self.ends and "clamped" not in self.ends
+
+    @property
+    def coordinates(self) -> int:
+        """Coordinates of the equation: the modes, and the rotation if there is one."""
+        return self.modes + self.rotates
+
+    @property
+    def rigid_axially(self) -> bool:
+        """Whether every EA is infinite."""
+        return all(math.isinf(s.EA[0]) for s in self.sections)
+
+    # ---- as a system ----------------------------------------------------------------------------
+
+    @property
+    def depends_on_Omega(self) -> bool:
+        """Whether the pulsating matrices move with Omega, as with a finite EA."""
+        return not self.rigid_axially
+
+    @property
+    def frequency_names(self) -> tuple[str, ...]:
+        """Of the coordinates: the rotation first, as in the report, then bending."""
+        return (*(("B",) if self.rotates else ()), *(str(n) for n in range(1, self.modes + 1)))
+
+    @property
+    def values(self) -> dict[str, float]:
+        """Every number that may be varied, by its name."""
+        return {p.name: value for p, value in varying(self)}
+
+    @property
+    def parameters(self) -> tuple[Parameter, ...]:
+        """What may be varied."""
+        return tuple(p for p, _ in varying(self))
+
+    def varied(self, **values: float) -> "Vehicle":
+        """The same with other values of some parameters."""
+        return varied(self, values)
+
+    # ---- checks ---------------------------------------------------------------------------------
+
+    def _on_board(self, name: str, parts: tuple[Part, ...]) -> tuple[Part, ...]:
+        return tuple(
+            replace(part, station=self._station(f"{name}[{k}].station", part.station))
+            for k, part in enumerate(parts, start=1)
+        )
+
+    def _station(self, name: str, value: float) -> float:
+        """A station on the vehicle; a rounding error beyond an end is put back."""
+        length = self.length
+        if abs(value - length) <= STATION * length:
+            return length
+        if not 0.0 <= value <= length:
+            raise ValueError(
+                f"{name} = {value:g}: is outside the vehicle, must be between 0 and {length:g}"
+            )
+        return value
+
+
+def _ends(value: Any) -> tuple[End, End]:
+    if isinstance(value, str) or not isinstance(value, Sequence) or len(value) != 2:
+        raise ValueError(f"ends = {value!r}: must be two words, of the nose and of the aft end")
+    for name in value:
+        if name not in ENDS:
+            raise ValueError(f"ends = {name!r}: {one_of(str(name), ENDS)}")
+    return value[0], value[1]
+
+
+def _items(name: str, value: Any, kind: type, most: int = MOST_SECTIONS) -> tuple[Any, ...]:
+    """A tuple of parts of one kind."""
+    try:
+        found = tuple(value)
+    except TypeError:
+        raise ValueError(f"{name}: must be a sequence of {kind.__name__}") from None
+    for k, item in enumerate(found, start=1):
+        if not isinstance(item, kind):
+            raise ValueError(f"{name}[{k}] = {item!r}: must be a {kind.__name__}")
+    if len(found) > most:
+        raise ValueError(f"{name}: are {len(found):,}, must be at most {most:,}")
+    return found
