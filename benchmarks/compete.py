@@ -63,10 +63,10 @@ class Field:
         own = [*ours.singles(), *ours.batches()]
         return [*own, *peers.all_peers(), *self.heyoka()]
 
-    def reference(self, points: Points, refine: bool = True) -> Reference | None:
+    def reference(self, points: Points) -> Reference | None:
         """The reference at some points, where python-flint is installed."""
         try:
-            return Reference(points, refine)
+            return Reference(points)
         except ImportError as error:
             self.missing["reference"] = reason(error)
             return None

@@ -31,8 +31,8 @@ of the chart .35 <= Omega <= 6, 0 <= gamma <= .5. Every contender has the same p
 thread. They take turns: each round runs every one of them once, in an order of its own, so that
 what slows the machine down slows all. A time is the median of the rounds. A ratio is taken round
 by round; beside its median stand its quartiles. The error is the largest of any coefficient of P,
-over the largest coefficient, at {points} points, against ball arithmetic whose two step lengths
-agree to {digits} digits. Errors are of P, not of T, which is ill-conditioned at every boundary."""
+over the largest coefficient, at {points} points, against ball arithmetic that knows P to {digits}
+digits. Errors are of P, not of T, which is ill-conditioned at every boundary."""
 
 
 def check(results: Results) -> None:

@@ -60,7 +60,7 @@ def _single(Omega: float, built: list[Built], plan: Plan, field: Field) -> dict[
     jobs = {b.contender.name: partial(b.solve, point) for b in built}
     _ = point.equations
     seconds = rounds(jobs, plan.rounds)
-    reference = field.reference(point, refine=False)
+    reference = field.reference(point)
     return {
         "Omega": Omega,
         "lines": [line(b, 1, seconds[b.contender.name], reference) for b in built],
@@ -69,7 +69,7 @@ def _single(Omega: float, built: list[Built], plan: Plan, field: Field) -> dict[
 
 def chart(plan: Plan, field: Field) -> dict[str, Any]:
     """The chart of a million points, by every route, against the same points one by one."""
-    reference = field.reference(points(plan.reference, seed=1), refine=False)
+    reference = field.reference(points(plan.reference, seed=1))
     kept: dict[str, Any] = {}
     jobs: dict[str, Callable[[], Any]] = {}
     lines: list[dict[str, Any]] = []
@@ -198,7 +198,7 @@ def modes(plan: Plan, field: Field) -> dict[str, Any]:
         built = field.build([c for c in chosen if c.name not in slow], where)
         least = (1, max(8, 1024 // count**2))
         small = count <= plan.referenced
-        reference = field.reference(points(1, count, NARROW), refine=False) if small else None
+        reference = field.reference(points(1, count, NARROW)) if small else None
         for entry in compete(built, where, plan.sweep_rounds, plan.target / 2, reference, least):
             curves.setdefault(entry["name"], []).append({"modes": count} | entry)
             if min(entry["seconds"]) > SLOWEST:
@@ -210,7 +210,7 @@ def modes(plan: Plan, field: Field) -> dict[str, Any]:
 def tolerance(plan: Plan, field: Field) -> dict[str, Any]:
     """Accuracy reached against time."""
     start = points(plan.most)
-    reference = field.reference(points(plan.reference, seed=1), refine=False)
+    reference = field.reference(points(plan.reference, seed=1))
     curves: dict[str, list[dict[str, Any]]] = {}
     for tol in plan.tolerances:
         chosen = [peers.make(m, tol, True) for m in ("LSODA", "DOP853", "cvodes Adams")]

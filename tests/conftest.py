@@ -1,6 +1,11 @@
 """One thread a process: the matrices are small, and the processes are as many as the cores."""
 
 import os
+import sys
+from pathlib import Path
 
 for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(name, "1")
+
+# the benchmarks, with the arbiter; last, so that what is installed comes before what lies here
+sys.path.append(str(Path(__file__).parents[1]))

@@ -5,9 +5,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from arbiter import largest_error, reference
 from systems import random_system
 
+from benchmarks.honesty.arbiter import largest_error, reference
 from compare.stability.roots import all_within, growth, most_isolated_root
 from floquet import monodromy
 from floquet.batch import c_kernel, polynomials, sweep

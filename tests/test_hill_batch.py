@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from arbiter import largest_error, reference
 from systems import DENSE, SPECIAL, random_system
 
+from benchmarks.honesty.arbiter import largest_error, reference
 from hill import HillEquation, SteppedBeam, UniformBeam, characteristic
 from hill.batch import Polynomials, polynomials
 

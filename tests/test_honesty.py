@@ -4,13 +4,13 @@ Honest: the reported error is not smaller than the true one. Converged: the true
 """
 
 from functools import cache
+from typing import Any
 
 import numpy as np
 import pytest
-from arbiter import exact, growth, largest_error, reference
-from flint import arb, arb_mat, ctx
 from systems import SPECIAL, random_system
 
+from benchmarks.honesty.arbiter import growth, largest_error, reference
 from floquet import Monodromy, monodromy
 from hill import Characteristic, HillEquation, characteristic
 
@@ -34,7 +34,7 @@ def system(name: str) -> HillEquation:
 
 
 @cache
-def truth(name: str) -> tuple[list[arb], float]:
+def truth(name: str) -> tuple[list[Any], float]:
     """P(z) and T."""
     equation = system(name)
     polynomial = reference(equation)
@@ -136,33 +136,3 @@ def test_a_damping_matrix_is_honest(name: str, method: str) -> None:
     assert true_error <= found.error
     assert true_error <= 1e-11
     assert found.error <= 1e-8
-
-
-@pytest.mark.parametrize("name", ["w = 1/2", "defective F", "report's beam", "seed 9"])
-def test_the_arbiter_has_forty_digits(name: str) -> None:
-    """Twice the steps move it by 1e-36 where it is 3e3, its balls are smaller still."""
-    size = max(float(p.abs_upper()) for p in truth(name)[0])
-    with ctx.workprec(600):
-        for once, twice in zip(truth(name)[0], reference(system(name), refine=2), strict=True):
-            assert float(once.rad()) < 1e-45 * size
-            assert float((once.mid() - twice.mid()).abs_upper()) < 1e-38 * size
-
-
-def test_the_arbiter_without_pulsation() -> None:
-    """P = z - cos(2 pi w), in closed form."""
-    with ctx.workprec(600):
-        expected = (2 * arb.pi() * arb(2.0).sqrt() / arb(1.3)).cos()
-        constant = reference(HillEquation([[2.0]], [[1.0]], 0.0, 1.3))[1]
-        assert float((constant + expected).abs_upper()) < 1e-40
-
-
-def test_the_arbiter_with_a_damping_matrix() -> None:
-    """Without pulsation the monodromy is the exponential of a matrix."""
-    F, C, Omega = [[2.0, 0.3], [0.2, 1.0]], [[0.1, 0.5], [-0.5, 0.2]], 1.3
-    first_order = np.block([[np.zeros((2, 2)), np.eye(2)], [-np.array(F), -np.array(C)]])
-    found = reference(HillEquation(F, np.eye(2), 0.0, Omega, C))
-    with ctx.workprec(600):
-        Phi: arb_mat = (exact(first_order) * (2 * arb.pi() / arb(Omega))).exp()
-        expected = Phi.charpoly().coeffs()[::-1]
-        for p, q in zip(found, expected, strict=True):
-            assert float((p - q).abs_upper()) < 1e-40

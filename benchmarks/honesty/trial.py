@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 import floquet.batch
 import hill.batch
 from benchmarks.honesty import arbiter
+from benchmarks.honesty.enclosures import BITS
 from benchmarks.honesty.systems import GROUP, SHARED, members
 from floquet import monodromy
 from floquet.batch import c_kernel
@@ -289,7 +290,7 @@ def _judge_P(
     assert answer.errors is not None
     assert known.P is not None
     reported = shrink * answer.errors
-    with ctx.workprec(4 * arbiter.BITS):
+    with ctx.workprec(BITS):
         pairs = zip(answer.polynomial, known.P, strict=True)
         off = [abs(arb(float(p)) - t) for p, t in pairs]
         beyond = [k for k, (d, r) in enumerate(zip(off, reported, strict=True)) if d > arb(r)]
@@ -320,7 +321,7 @@ def _judge_T(answer: Answer, known: Truth, shrink: float, wrong: dict[str, str])
         if growth.T.is_finite() and abs(arb(answer.T) - growth.T) > arb(reported) + NOTHING:
             wrong["T"] = f"off by {_off(answer.T, growth.T):.3g}, reported {reported:.3g}"
         return {"T_skipped": True}
-    with ctx.workprec(4 * arbiter.BITS):
+    with ctx.workprec(BITS):
         off = abs(arb(answer.T) - growth.T)
         true, beyond = float(off.mid()), bool(off > arb(reported) + NOTHING)
     e = known.equation
