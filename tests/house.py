@@ -1,0 +1,312 @@
+"""Who asks whom: what a module refers to, read from its source, and who calls whom, while it runs.
+
+Names are followed through imports and their renamings to where a thing is defined, so that a rule
+is about what is called and not about how it was imported. What is called by a name made up at run
+time only the trace sees.
+"""
+
+import ast
+import gc
+import re
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from functools import _lru_cache_wrapper, cache
+from importlib import import_module
+from pathlib import Path
+from types import FrameType, ModuleType
+from typing import Any
+
+import compare
+import floquet
+import hill
+
+FLOORS = ("hill", "floquet", "compare")
+ROOTS = {p.__name__: Path(next(iter(p.__path__))) for p in (hill, floquet, compare)}
+MODULES = sorted((floor, path) for floor, root in ROOTS.items() for path in root.rglob("*.py"))
+
+# Data only: what floquet may know of hill.
+SHARED = {
+    "Damping",
+    "Fourier",
+    "HillEquation",
+    "LongitudinalResonance",
+    "PeriodicEquation",
+    "PointMass",
+    "Section",
+    "Sensor",
+    "SteppedBeam",
+    "Thrust",
+    "UniformBeam",
+    "Vehicle",
+    "checks",
+}
+
+# The modules of hill that hold data; every other one computes.
+DATA_MODULES = {
+    "hill",
+    "hill.beam_common",
+    "hill.beams",
+    "hill.checks",
+    "hill.equation",
+    "hill.errors",
+    "hill.periodic",
+    "hill.system",
+    "hill.toml",
+    "hill.vehicle.parts",
+    "hill.vehicle.units",
+    "hill.vehicle.vehicle",
+}
+# What the data's own modules do compute: the determinant's side of a beam.
+COMPUTED = {"equation", "frequencies", "longitudinal_resonances", "natural_frequencies"}
+
+# What the judge may ask a route for: P, T, z and their bounds, the witness's own matrices, and
+# where theory expects an instability.
+ANSWERS = {
+    "floquet.batch.equations.Polynomials",
+    "floquet.batch.equations.polynomials",
+    "floquet.period.Monodromy",
+    "floquet.period.monodromy",
+    "floquet.sensitivity.equation.Sensitivities",
+    "floquet.sensitivity.system.BeamSensitivities",
+    "floquet.sensitivity.system.beam_sensitivities",
+    "floquet.unchecked.unchecked_growth",
+    "floquet.unchecked.unchecked_polynomials",
+    "floquet.weak_form.galerkin",
+    "floquet.witness.maker",
+    "hill.averaging.Resonance",
+    "hill.averaging.first_order",
+    "hill.averaging.half_width",
+    "hill.averaging.modal",
+    "hill.batch.Polynomials",
+    "hill.batch.polynomials",
+    "hill.determinant.converged.Characteristic",
+    "hill.determinant.converged.characteristic",
+    "hill.stability.Stabilities",
+    "hill.stability.Stability",
+    "hill.stability.Verdict",
+    "hill.stability.by_signs",
+    "hill.stability.modulus",
+    "hill.stability.separators",
+    "hill.stability.stabilities",
+    "hill.stability.stability_of",
+}
+
+# With which a judge would compute for itself what it is to judge.
+PHYSICS = (
+    "casadi",
+    "numpy.fft",
+    "numpy.linalg",
+    "numpy.polynomial.legendre",
+    "scipy.integrate",
+    "scipy.linalg",
+    "scipy.special",
+)
+HARMLESS = ("numpy.linalg.norm", "numpy.linalg.LinAlgError")
+
+# (where, what, why)
+EXCUSED = (
+    (
+        "compare/stability/",
+        {"numpy.linalg.eigvals"},
+        "roots of a given P, as eigenvalues of its companion matrix",
+    ),
+    (
+        "compare/report/program/",
+        {"numpy.linalg.det", "numpy.linalg.eigvals", "numpy.linalg.solve"},
+        "the report's own program, line by line: it is what is judged",
+    ),
+    (
+        "compare/report/row.py",
+        {
+            "hill.determinant.finite.blocks",
+            "hill.determinant.residues.polynomial",
+            "hill.determinant.residues.report_rule",
+        },
+        "the report's truncation without the converged determinant beside it",
+    ),
+    (
+        "compare/report/claims/quadrature.py",
+        {
+            "hill.matrices.integrals.sine_integral",
+            "hill.matrices.modes.UNIT",
+            "hill.matrices.modes.eigenvalue",
+            "hill.matrices.modes.slope",
+            "numpy.polynomial.legendre.leggauss",
+        },
+        "left over: the part of the force out of phase, whose G belongs to the routes",
+    ),
+    (
+        "compare/report/claims/compliance.py",
+        {"numpy.polynomial.legendre.leggauss"},
+        "an integral of the force alone, beside its closed form",
+    ),
+    (
+        "compare/report/claims/frequencies.py",
+        {
+            "numpy.linalg.eigvals",
+            "numpy.linalg.solve",
+            "scipy.special.jn_zeros",
+            "scipy.special.jv",
+        },
+        "the critical thrust of a free beam from the literature, in closed form",
+    ),
+    (
+        "compare/report/claims/routes.py",
+        {"numpy.linalg.eigvals"},
+        "frequencies of the witness's own F, of which no route speaks",
+    ),
+    (
+        "compare/report/claims/examples.py",
+        {"hill.matrices.modes.eigenvalue"},
+        "lambda_1, from which the report's units are made",
+    ),
+)
+
+
+def name_of(floor: str, path: Path) -> str:
+    return f"{floor}/{path.relative_to(ROOTS[floor]).as_posix()}"
+
+
+@cache
+def tree(path: Path) -> ast.Module:
+    return ast.parse(path.read_text(encoding="utf-8"))
+
+
+Call = tuple[str, str, str]
+"""Module that calls, module that is called, and what of it."""
+
+
+def references(path: Path) -> set[str]:
+    """Dotted names, imports resolved: "numpy.linalg.det" for ``la.det`` and for ``det``."""
+    known: dict[str, str] = {}
+    found: set[str] = set()
+    for node in ast.walk(tree(path)):
+        if isinstance(node, ast.Import):
+            for alias in node.names:
+                whole = alias.name if alias.asname else alias.name.split(".")[0]
+                known[alias.asname or whole] = whole
+                found.add(alias.name)
+        elif isinstance(node, ast.ImportFrom):
+            for alias in node.names:
+                known[alias.asname or alias.name] = f"{node.module}.{alias.name}"
+                found.add(f"{node.module}.{alias.name}")
+
+    def dotted(node: ast.AST) -> str | None:
+        if isinstance(node, ast.Name):
+            return known.get(node.id)
+        if isinstance(node, ast.Attribute):
+            before = dotted(node.value)
+            return before and f"{before}.{node.attr}"
+        return None
+
+    return found | {name for node in ast.walk(tree(path)) if (name := dotted(node))}
+
+
+@cache
+def home(name: str) -> str:
+    """Where a dotted name is defined: ``hill.characteristic`` in ``hill.determinant.converged``.
+
+    A constant, and what is not there, keeps the name it has. Private modules of numpy are left out:
+    ``numpy.linalg.det`` is ``numpy.linalg._linalg.det``.
+    """
+    thing = named(name)
+    if isinstance(thing, ModuleType):
+        return thing.__name__
+    module, own = getattr(thing, "__module__", None), getattr(thing, "__qualname__", None)
+    return public(f"{module}.{own}") if module and own else name
+
+
+@cache
+def named(name: str) -> Any:
+    """What has this dotted name; None where nothing has."""
+    before, _, last = name.rpartition(".")
+    owner = named(before) if before else None
+    if hasattr(owner, last):
+        return getattr(owner, last)
+    if before and not hasattr(owner, "__path__"):
+        return None
+    try:
+        return import_module(name)
+    except ImportError:
+        return None
+
+
+def public(name: str) -> str:
+    """A dotted name of numpy or scipy without their private modules."""
+    private = name.startswith(("numpy.", "scipy."))
+    return re.sub(r"\._\w+(?=\.)", "", name) if private else name
+
+
+@contextmanager
+def traced(*floors: str) -> Iterator[set[Call]]:
+    """Every call of a Python function by, or of, a module of these packages, as it happens.
+
+    Caches are emptied before, or what they remember would be used without a call.
+    """
+    calls: set[Call] = set()
+
+    def of(frame: FrameType | None) -> str:
+        return str(frame.f_globals.get("__name__", "")) if frame else ""
+
+    def note(frame: FrameType, event: str, _: Any) -> None:
+        if event == "call":
+            caller, called = of(frame.f_back), of(frame)
+            if {caller.split(".")[0], called.split(".")[0]} & set(floors):
+                calls.add((caller, called, frame.f_code.co_qualname))
+
+    forget(*floors)
+    before = sys.getprofile()
+    sys.setprofile(note)
+    try:
+        yield calls
+    finally:
+        sys.setprofile(before)
+
+
+def forget(*floors: str) -> None:
+    """Empty the caches of every function of these packages, wherever it is kept."""
+    for thing in gc.get_objects():
+        if isinstance(thing, _lru_cache_wrapper) and thing.__module__.split(".")[0] in floors:
+            thing.cache_clear()
+
+
+def floors_above(floor: str, path: Path) -> set[str]:
+    """What a module refers to of the floors that it must not know."""
+    unknown = {"hill": ("floquet", "compare"), "floquet": ("compare",), "compare": ()}[floor]
+    return {name for name in references(path) if name.split(".")[0] in unknown}
+
+
+def beyond_data(path: Path) -> set[str]:
+    """What a module of the witness knows of hill beside data."""
+    found = {name for name in references(path) if name.split(".")[0] == "hill"}
+    return {name for name in found if name != "hill" and name.split(".")[1] not in SHARED}
+
+
+def own_physics(names: set[str], place: str) -> set[str]:
+    """What of these a module of the judge must neither compute by itself nor ask a route for."""
+    excused = {what for where, whats, _ in EXCUSED if place.startswith(where) for what in whats}
+    wrong = {
+        name
+        for name in names
+        if (not is_answer(name) if name.split(".")[0] in ("hill", "floquet") else is_physics(name))
+    }
+    return wrong - excused
+
+
+def is_physics(name: str) -> bool:
+    """Whether it is mathematics that only the routes are to do."""
+    if name.startswith(HARMLESS) or (name.startswith("numpy.") and is_module(name)):
+        return False
+    return name.startswith(PHYSICS)
+
+
+def is_answer(name: str) -> bool:
+    """Whether the judge may ask for it: data, or what a route has to say."""
+    doors = ANSWERS | (DATA_MODULES - {"hill"})
+    return is_module(name) or any(f"{name}.".startswith(f"{door}.") for door in doors)
+
+
+def is_module(name: str) -> bool:
+    """Whether it is a module: to have one is nothing yet, what it is asked for counts."""
+    return isinstance(named(name), ModuleType)
