@@ -53,6 +53,7 @@ DATA_MODULES = {
     "hill.periodic",
     "hill.system",
     "hill.toml",
+    "hill.vehicle.file",
     "hill.vehicle.parts",
     "hill.vehicle.units",
     "hill.vehicle.vehicle",
