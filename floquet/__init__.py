@@ -1,6 +1,7 @@
 """The witness: a periodic system in the time domain, its monodromy matrix, what follows from it."""
 
-from floquet.period import Monodromy, monodromy
+from floquet.period import monodromy
+from floquet.result import Monodromy
 from floquet.sensitivity.equation import Derivatives, Sensitivities, sensitivities
 from floquet.sensitivity.system import BeamSensitivities, beam_sensitivities
 

@@ -69,7 +69,8 @@ def discs_from_matrix(A: Float, error: Float) -> Discs:
         return nothing
     radius = np.sum(apart, axis=1) + defect / (1.0 - defect) * np.max(np.sum(apart, axis=1))
     radius = np.minimum(1.01 * radius, everything + np.abs(values))
-    return Discs(values, radius, _touching(values, radius))
+    apart = np.abs(values[:, None] - values)
+    return Discs(values, radius, connected(apart <= radius[:, None] + radius))
 
 
 def discs_from_polynomial(values: Complex, p: Float, errors: Float) -> Discs:
@@ -105,9 +106,8 @@ def discs_from_polynomial(values: Complex, p: Float, errors: Float) -> Discs:
     return Discs(values, radius, (apart <= radius[:, None]) | np.eye(n, dtype=bool))
 
 
-def _touching(centre: Complex, radius: Float) -> Bool:
-    """Which discs hang together, directly or through others."""
-    together = np.abs(centre[:, None] - centre) <= radius[:, None] + radius
-    for _ in range(int(np.ceil(np.log2(len(centre) + 1)))):
+def connected(together: Bool) -> Bool:
+    """What hangs together, directly or through others."""
+    for _ in range(int(np.ceil(np.log2(len(together) + 1)))):
         together = together @ together
-    return np.asarray(together | np.eye(len(centre), dtype=bool))
+    return np.asarray(together | np.eye(len(together), dtype=bool))

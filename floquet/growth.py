@@ -6,8 +6,10 @@ from typing import Literal
 
 import numpy as np
 
-from floquet.arrays import EPS, Float
+from floquet.arrays import EPS, Bool, Complex, Float
 from floquet.eigenvalues import Discs
+
+TINY = 5e-324
 
 Verdict = Literal["stable", "unstable", "undecided"]
 
@@ -39,7 +41,7 @@ def growth_from_z(
         r, real = discs.radius, discs.real
         outer = ln_mu(x + r, np.where(real, 0.0, y + r))
         inner = ln_mu(np.maximum(x - r, 0.0), np.where(real, 0.0, np.maximum(y - r, 0.0)))
-        least = max(least, _least(discs, inner))
+        least = max(least, _least(discs.together, inner))
         most = min(most, float(outer.max()))
         inside |= bool(np.all(real & (x + r < 1.0)))
     z = families[0].centre
@@ -50,16 +52,100 @@ def growth_from_z(
     return _growth(value, least, most, period, eta, bounded=inside, beyond=beyond)
 
 
-def growth_from_multipliers(families: Sequence[Discs], period: float, mean: float) -> Growth:
+@dataclass(frozen=True, eq=False)
+class LogDiscs:
+    """Where the multipliers are, by their logarithms.
+
+    Attributes
+    ----------
+    value : (m,) complex ndarray
+        ln mu.
+    radius : (m,) ndarray
+        Of a disc about mu, over |mu|.
+    least, most : (m,) ndarray
+        Bounds on ln |mu|.
+    together : (m, m) bool ndarray
+        Which discs form one region; it holds as many true multipliers as it has discs.
+    """
+
+    value: Complex
+    radius: Float
+    least: Float
+    most: Float
+    together: Bool
+
+    @classmethod
+    def of(cls, discs: Discs) -> "LogDiscs":
+        """Discs about the multipliers themselves."""
+        # one that has underflowed is not known
+        size, r = np.maximum(np.abs(discs.centre), TINY), discs.radius
+        with np.errstate(divide="ignore", over="ignore"):
+            return cls(
+                value=np.log(size) + 1j * np.angle(discs.centre),
+                radius=r / size,
+                least=np.log(np.maximum(size - r, 0.0)),
+                most=np.log(size + r),
+                together=discs.together,
+            )
+
+
+def growth_from_multipliers(families: Sequence[LogDiscs], period: float, mean: float) -> Growth:
     """T = (2/period) ln max |mu|, the damping being in mu; `mean` is the mean of all ln |mu|."""
     least, most = mean, np.inf
-    with np.errstate(divide="ignore"):
-        for discs in families:
-            size, r = np.abs(discs.centre), discs.radius
-            least = max(least, _least(discs, np.log(np.maximum(size - r, 0.0))))
-            most = min(most, float(np.log(np.max(size + r))))
-        value = float(np.log(np.max(np.abs(families[0].centre))))
+    for discs in families:
+        least = max(least, _least(discs.together, discs.least))
+        most = min(most, float(np.max(discs.most)))
+    value = float(np.max(families[0].value.real))
     return _growth(value, least, most, period, 0.0)
+
+
+def logarithm_error(families: Sequence[Discs]) -> Float:
+    """How far ln mu of each z = cosh ln mu is from a true one at most; all have the same centres.
+
+    cosh a - cosh b = 2 sinh((a + b)/2) sinh((a - b)/2), and of a and -a, that is nearer for which
+    the second factor is the smaller one: |sinh((a - b)/2)|^2 <= r/2. Away from z = 1 and z = -1 the
+    slope (z^2 - 1)^(-1/2), the largest within the disc, says less.
+    """
+    off = np.full(len(families[0].centre), np.inf)
+    for discs in families:
+        z, r = discs.centre, discs.radius
+        # a region has as many as it has discs, but they may be in any of them
+        reach = np.abs(z[:, None] - z) + r
+        r = np.max(np.where(discs.together, reach, 0.0), axis=1)
+        inner = (np.abs(z - 1.0) - r) * (np.abs(z + 1.0) - r)
+        slope = np.where((np.abs(z - 1.0) > r) & (np.abs(z + 1.0) > r), inner, 0.0)
+        with np.errstate(divide="ignore"):
+            straight = np.where(slope > 0.0, r / np.sqrt(slope), np.inf)
+        half = np.sqrt(0.5 * r)
+        bent = np.where(half < 1.0, 2.0 * np.arcsin(np.minimum(half, 1.0)), np.inf)
+        off = np.minimum(off, np.minimum(straight, bent))
+    return off + 8.0 * EPS
+
+
+def logarithms(families: Sequence[LogDiscs]) -> tuple[Complex, Float]:
+    """Ln mu by descending modulus, by the first family, and how far a true one is at most.
+
+    The imaginary part is between -pi and pi, and so is that of a difference.
+    """
+    value = families[0].value
+    value = value[np.argsort(-value.real, kind="stable")]
+    off = np.full(len(value), np.inf)
+    for discs in families:
+        with np.errstate(divide="ignore"):
+            own = -np.log1p(-np.minimum(discs.radius, 1.0))
+        own = own + 4.0 * EPS * np.abs(discs.value)
+        # a region has as many as it has discs, but they may be in any of them
+        between = _wrapped(discs.value[:, None] - discs.value)
+        region = np.max(np.where(discs.together, between + own, 0.0), axis=1)
+        away = _wrapped(value[:, None] - discs.value)
+        off = np.minimum(off, np.min(away + region, axis=1))
+    return value, off
+
+
+def _wrapped(difference: Complex) -> Float:
+    """Moduli, the imaginary part less its whole turns."""
+    turn = 2.0 * np.pi
+    return np.hypot(difference.real, difference.imag - turn * np.round(difference.imag / turn))
 
 
 def ln_mu(x: Float, y: Float) -> Float:
@@ -79,9 +165,9 @@ def ln_mu(x: Float, y: Float) -> Float:
     return np.asarray(np.arcsinh(np.sqrt(square)) - np.log(scale))
 
 
-def _least(discs: Discs, inner: Float) -> float:
+def _least(together: Bool, inner: Float) -> float:
     """What the largest is at least: of the discs of one region one is known to be filled."""
-    return float(np.min(np.where(discs.together, inner[None, :], np.inf), axis=1).max())
+    return float(np.min(np.where(together, inner[None, :], np.inf), axis=1).max())
 
 
 def _beyond(p: Float, errors: Float, decay: float) -> bool:

@@ -7,29 +7,24 @@ matrix obeys U(-tau) = S U(tau) S, whether or not F and G are symmetric. Two thi
 * (S Phi)^2 = I, so the multipliers come in pairs mu, 1/mu, and with Phi in n-by-n blocks
   [[A, B], [C, D]] the n values z = (mu + 1/mu)/2 = cos 2 pi alpha are the eigenvalues of A.
 
-Neither holds for a damping matrix: then the whole period is integrated and there is no z. The
-whole period is integrated too where the solution grows so much that U cannot be inverted well.
+Neither holds for a general equation, nor for a damping matrix: `floquet.general.period`. The whole
+period is integrated too where the solution grows so much that U cannot be inverted well.
 """
-
-from dataclasses import dataclass
 
 import numpy as np
 
-from floquet.accuracy import (
-    OVERFLOW,
-    Bounded,
-    amplitudes,
-    bounded,
-)
-from floquet.arrays import Complex, Float
+from floquet.accuracy import OVERFLOW, Bounded, bounded
+from floquet.arrays import EPS, Complex, Float
 from floquet.data_errors import data_share, subtraction_error
 from floquet.eigenvalues import Discs, discs_from_matrix, discs_from_polynomial, sorted_eigenvalues
-from floquet.growth import Verdict, growth_from_multipliers, growth_from_z
-from floquet.integrate.methods import METHODS, Method
+from floquet.general.period import general_monodromy
+from floquet.growth import growth_from_z, logarithm_error
+from floquet.integrate.methods import METHODS
 from floquet.integrate.ode import Parameters, parameter_values, shape, terms
 from floquet.integrate.step_length import fastest_rate, perron_root
 from floquet.integrate.taylor import Taylor
-from hill import HillEquation
+from floquet.result import Monodromy
+from hill import HillEquation, PeriodicEquation
 
 # The terms that S U^-1 S U sums are this much larger than 1, 3 to 5 for the report's beam with 2 to
 # 12 modes, twice the growth over a period where there is one. Beyond, the whole period loses less.
@@ -39,83 +34,16 @@ MAX_TERM_GROWTH = 100.0
 MAX_DECAY_EXPONENT = 700.0
 
 
-@dataclass(frozen=True, eq=False)
-class Monodromy:
-    """What one period does to (q, q'), and what follows from it.
-
-    Attributes
-    ----------
-    matrix : (2n, 2n) float ndarray
-        Phi: (q, q') at tau + 2 pi/Omega is Phi times (q, q') at tau = 0.
-    multipliers : (2n,) complex ndarray
-        Eigenvalues of Phi, by descending modulus.
-    polynomial : (n + 1,) float ndarray
-        P(z) = det(z I - A), monic, highest power first. With a damping matrix, which has no z,
-        the polynomial of the multipliers themselves, (2n + 1,).
-    errors : (n + 1,) float ndarray
-        Bound on the absolute error of each coefficient of `polynomial`, for the matrices F, G and H
-        to the last bit as they are given.
-    matrix_error : (n, n) float ndarray
-        Bound on the error of each element of A; of `matrix` with a damping matrix.
-    data_error : float
-        What the equation's own `data_error` may add to that, to first order; 0 where it has none.
-    z : (n,) complex ndarray
-        cos 2 pi alpha, by descending real part; empty with a damping matrix.
-    T : float
-        Characteristic argument (7.1.1): twice the growth exponent of q, over ``omega_1``.
-    T_error : float
-        Bound on the error of `T` that `errors` and `matrix_error` allow.
-    verdict : {"stable", "unstable", "undecided"}
-        What is shown: all z real, simple and within (-1, 1), or no growth with damping; growth; or
-        neither.
-    liouville_defect : float
-        |det Phi / exp(-period tr C) - 1| of the run that checks, which takes no symmetry for
-        granted.
-    reversibility_defect : float
-        Largest element of (S Phi_u)^2 - I of that run, over the square of the largest of Phi_u;
-        nan with a damping matrix.
-    method : str
-        The CasADi method.
-    half_period : bool
-        Whether reversibility was used.
-    """
-
-    matrix: Float
-    multipliers: Complex
-    polynomial: Float
-    errors: Float
-    matrix_error: Float
-    data_error: float
-    z: Complex
-    T: float
-    T_error: float
-    verdict: Verdict
-    liouville_defect: float
-    reversibility_defect: float
-    method: str
-    half_period: bool
-
-    @property
-    def error(self) -> float:
-        """Bound on the absolute error of every coefficient of `polynomial`: largest of `errors`."""
-        return float(np.max(self.errors))
-
-    @property
-    def stable(self) -> bool:
-        """Whether the system is shown to be stable."""
-        return self.verdict == "stable"
-
-
-def monodromy(equation: HillEquation, *, method: str = "taylor") -> Monodromy:
-    """Integrate the matrix Hill equation (6.1.1) over one period.
+def monodromy(equation: HillEquation | PeriodicEquation, *, method: str = "taylor") -> Monodromy:
+    """Integrate a periodic equation over one period.
 
     Every result is checked by a second integration, of the damped equation as it stands, over the
     whole period, with other steps; `error` comes from their difference.
 
     Parameters
     ----------
-    equation : HillEquation
-        `eta` may be a matrix here.
+    equation : HillEquation or PeriodicEquation
+        The matrix Hill equation (6.1.1), of which `eta` may be a matrix, or a general one.
     method : {"taylor", "cvodes"}, optional
         A Taylor step of order 24 folded over the period, or SUNDIALS' Adams method.
 
@@ -133,13 +61,16 @@ def monodromy(equation: HillEquation, *, method: str = "taylor") -> Monodromy:
     if method not in METHODS:
         raise ValueError(f"method = {method!r}: must be one of {', '.join(METHODS)}")
     how = METHODS[method]
+    if isinstance(equation, PeriodicEquation):
+        return general_monodromy(equation, method)
+    if np.ndim(equation.eta) > 0:
+        # gamma G is rounded, and so is what it may be added to
+        largest = abs(equation.gamma) * np.abs(equation.G) + sum(map(np.abs, equation.H))
+        return general_monodromy(equation.general(), method, rounded=EPS * largest)
     size, period = shape(equation), 2.0 * np.pi / equation.Omega
     plain = parameter_values(equation)
     if how.diverges:
         _finite(Taylor()(plain, size, period))
-    if np.ndim(equation.eta) > 0:
-        return _damping_matrix(equation, how, _finite(how.check(plain, size, period)), method)
-
     eta, n = equation.damping, size.n
     if abs(eta) * 0.5 * period > MAX_DECAY_EXPONENT:
         raise OverflowError(
@@ -179,11 +110,17 @@ def monodromy(equation: HillEquation, *, method: str = "taylor") -> Monodromy:
     root = np.sqrt(z - 1.0) * np.sqrt(z + 1.0)
     outer = np.where(np.abs(z + root) >= np.abs(z - root), z + root, z - root)
     pairs = np.concatenate([outer, 1.0 / outer])  # z - root cancels where z is large
+    order = np.argsort(-np.abs(pairs), kind="stable")
+    pairs = pairs[order]
     decay = np.exp(-0.5 * eta * period)
-    growth = growth_from_z(_discs(z, A, found), found.p, found.errors, period, eta)
+    discs = _discs(z, A, found)
+    growth = growth_from_z(discs, found.p, found.errors, period, eta)
+    off = logarithm_error(discs)
     return Monodromy(
         matrix=_damp(Phi_u, eta, period),
-        multipliers=_descending(decay * pairs),
+        multipliers=decay * pairs,
+        exponents=np.log(pairs) / period - 0.5 * eta,
+        exponent_errors=np.concatenate([off, off])[order] / period,
         polynomial=found.p,
         errors=found.errors,
         matrix_error=found.matrix_error,
@@ -205,35 +142,6 @@ def second_half(U: Float) -> tuple[Float, Float]:
     S = np.repeat([1.0, -1.0], [n, n])
     inverse = np.linalg.inv(U)
     return (S[:, None] * inverse * S) @ U, np.abs(inverse) @ np.abs(U)
-
-
-def _damping_matrix(equation: HillEquation, how: Method, checked: Float, method: str) -> Monodromy:
-    """A damping matrix: the whole period, and the multipliers as they are."""
-    p, size = parameter_values(equation), shape(equation)
-    period = 2.0 * np.pi / equation.Omega
-    Phi = _finite(how.run(p, size, period))
-    fastest = fastest_rate(terms(p, size), p.C)
-    found = bounded(Phi, checked, amplitudes(Phi, fastest), 8.0 + fastest * period, how.floor)
-    mu = sorted_eigenvalues(Phi)
-    # Liouville: the product of all mu is exp(-period tr C)
-    mean = -0.5 * period * float(np.trace(p.C)) / size.n
-    growth = growth_from_multipliers(_discs(mu, Phi, found), period, mean)
-    return Monodromy(
-        matrix=Phi,
-        multipliers=_descending(mu),
-        polynomial=found.p,
-        errors=found.errors,
-        matrix_error=found.matrix_error,
-        data_error=data_share(equation) * float(np.sum(np.abs(found.p))),
-        z=np.empty(0, complex),
-        T=growth.T,
-        T_error=growth.T_error,
-        verdict=growth.verdict,
-        liouville_defect=_liouville(checked, p, period),
-        reversibility_defect=float("nan"),
-        method=method,
-        half_period=False,
-    )
 
 
 def _discs(values: Complex, A: Float, found: Bounded) -> tuple[Discs, Discs]:
@@ -269,11 +177,6 @@ def _reversibility(Phi_u: Float) -> float:
     size = max(1.0, float(np.max(np.abs(Phi_u))))
     turned = S[:, None] * (Phi_u / size)
     return float(np.max(np.abs(turned @ turned - np.eye(2 * n) / size / size)))
-
-
-def _descending(mu: Complex) -> Complex:
-    ordered: Complex = mu[np.argsort(-np.abs(mu), kind="stable")]
-    return ordered
 
 
 def _finite(Phi: Float) -> Float:

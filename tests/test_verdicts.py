@@ -11,7 +11,7 @@ from systems import SPECIAL
 
 from floquet import monodromy
 from floquet.eigenvalues import discs_from_matrix, discs_from_polynomial
-from floquet.growth import growth_from_multipliers, growth_from_z, ln_mu
+from floquet.growth import LogDiscs, growth_from_multipliers, growth_from_z, ln_mu
 from hill import HillEquation, characteristic
 from hill.stability import log_R, root_radii, roots, stabilities, stability_of
 
@@ -218,7 +218,7 @@ def test_multipliers_of_a_damping_matrix_are_judged() -> None:
     free = HillEquation(np.diag([1.0, 4.0]), np.eye(2), 0.1, 2.7, eta=np.zeros((2, 2)))
     assert monodromy(free).verdict == "undecided"  # on the circle, and pairs are not used
     nothing = discs_from_polynomial(np.ones(1, complex), np.array([1.0, -1.0]), np.zeros(2))
-    assert growth_from_multipliers((nothing,), 1.0, 0.0).verdict == "undecided"
+    assert growth_from_multipliers((LogDiscs.of(nothing),), 1.0, 0.0).verdict == "undecided"
 
 
 def test_many_polynomials_are_judged_as_each_alone() -> None:

@@ -44,6 +44,11 @@ def _integrator(size: Shape, tolerance: float) -> Any:
         "p": ca.vertcat(time, *(ca.vec(value) for value in p)),
         "ode": ca.vec(time * rise),
     }
+    return adams(dae, tolerance)
+
+
+def adams(dae: dict[str, Any], tolerance: float) -> Any:
+    """SUNDIALS' Adams method on a system from 0 to 1, with one tolerance for all."""
     options: dict[str, Any] = {
         "reltol": tolerance,
         "abstol": tolerance,

@@ -20,27 +20,61 @@ def perron_root(matrices: Float) -> Float:
     return np.asarray(np.max(np.abs(np.linalg.eigvals(matrices)), axis=-1))
 
 
-def fastest_rate(terms: Sequence[Term], damping: Float) -> float:
+def fastest_rate(terms: Sequence[Term], damping: Float | Sequence[Term]) -> float:
     """A bound on how fast anything in the equation oscillates or grows."""
-    stiffness = sum((np.abs(matrix) for matrix, _ in terms), np.zeros_like(damping))
-    forcing = max(frequency for _, frequency in terms)
-    return float(np.sqrt(perron_root(stiffness)) + perron_root(np.abs(damping)) + forcing)
+    drag = _as_terms(damping)
+    forcing = max(frequency for _, frequency in (*terms, *drag))
+    return float(np.sqrt(perron_root(_together(terms))) + perron_root(_together(drag)) + forcing)
 
 
-def longest_step(terms: Sequence[Term], damping: Float, order: int, tolerance: float) -> float:
+def longest_step(
+    terms: Sequence[Term], damping: Float | Sequence[Term], order: int, tolerance: float
+) -> float:
     """Longest h with which a Taylor step of this order leaves out less than `tolerance`.
 
     On the circle |t| = R about the step's start a cosine is at most cosh(frequency R), so the
-    solution grows at most by exp(R rho(R)), rho^2 the Perron root of the stiffness there. Cauchy:
-    the terms beyond the order sum to less than exp(R rho) (h/R)^(order + 1)/(1 - h/R). Any R will
-    do; the one that allows the longest step is taken.
+    solution grows at most by exp(R rho(R)), rho the Perron root of the damping there and the square
+    root of that of the stiffness. Cauchy: the terms beyond the order sum to less than
+    exp(R rho) (h/R)^(order + 1)/(1 - h/R). Any R will do; the one that allows the longest step is
+    taken. Infinite where nothing moves.
+
+    Parameters
+    ----------
+    terms : sequence of Term
+        Stiffness.
+    damping : (n, n) ndarray or sequence of Term
+        Constant, or pulsating; of an equation of first order its whole matrix, with no stiffness.
+    order : int
+    tolerance : float
+        Over the solution's size.
     """
-    R = RADII * (order + 1) / 25.0 / fastest_rate(terms, damping)
-    stiffness = np.zeros((len(R), *damping.shape))
-    for matrix, frequency in terms:
-        swell = np.cosh(np.minimum(frequency * R, MAX_EXPONENT / 2))
-        stiffness += swell[:, None, None] * np.abs(matrix)
-    growth = R * (np.sqrt(perron_root(stiffness)) + perron_root(np.abs(damping)))
+    rate = fastest_rate(terms, damping)
+    if rate == 0.0:
+        return float("inf")
+    R = RADII * (order + 1) / 25.0 / rate
+    growth = R * (np.sqrt(perron_root(_swollen(terms, R))) + _drag(_as_terms(damping), R))
     # 1 - h/R exceeds 1/2 wherever the bound is of any use
     share = np.exp((np.log(0.5 * tolerance) - np.minimum(growth, MAX_EXPONENT)) / (order + 1))
     return float(np.max(R * np.minimum(share, 0.5)))
+
+
+def _as_terms(damping: Float | Sequence[Term]) -> Sequence[Term]:
+    return [(damping, 0.0)] if isinstance(damping, np.ndarray) else damping
+
+
+def _together(terms: Sequence[Term]) -> Float:
+    return sum((np.abs(matrix) for matrix, _ in terms), np.zeros_like(terms[0][0]))
+
+
+def _drag(damping: Sequence[Term], R: Float) -> Float:
+    constant = all(frequency == 0.0 for _, frequency in damping)
+    return perron_root(_together(damping) if constant else _swollen(damping, R))
+
+
+def _swollen(terms: Sequence[Term], R: Float) -> Float:
+    """The sum of moduli on circles of radius R in complex time."""
+    total = np.zeros((len(R), *terms[0][0].shape))
+    for matrix, frequency in terms:
+        swell = np.cosh(np.minimum(frequency * R, MAX_EXPONENT / 2))
+        total += swell[:, None, None] * np.abs(matrix)
+    return total

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 from functools import lru_cache
-from math import ceil, factorial, log2
+from math import ceil, log2
 from typing import Any
 
 import casadi as ca
@@ -10,6 +10,7 @@ import numpy as np
 
 from floquet.arrays import Float
 from floquet.integrate.ode import Parameters, Shape, symbols, terms
+from floquet.integrate.recurrence import cosine, second_order
 from floquet.integrate.step_length import longest_step
 
 # SX expands every scalar operation: quicker to run, slower to build. Measured: at this many of
@@ -95,25 +96,14 @@ def _step(size: Shape, order: int) -> Any:
     p = symbols(kind, size)
     X, tau, h = kind.sym("X", 2 * n, 2 * n), kind.sym("tau"), kind.sym("h")
 
-    cosines = [(p.gamma * p.G, _cosine(p.Omega, tau, h, order))]
+    pulsating = [(p.gamma * p.G, _cosine(p.Omega, tau, h, order))]
     for s, H_s in enumerate(ca.horzsplit(p.H, n) if size.terms else [], start=1):
-        cosines.append((H_s, _cosine(s * p.omega_L, tau, h, order)))
-
-    # q(tau + x h) = sum_k a_k x^k, so q'' = -C q' - [F + sum cos] q reads, power by power,
-    # (k+1)(k+2) a_(k+2) = -h (k+1) C a_(k+1) - h^2 (F a_k + sum_j cos_j a_(k-j))
-    a = [X[:n, :], h * X[n:, :]]
-    for k in range(order - 1):
-        force = p.F @ a[k]
-        for matrix, cosine in cosines:
-            force += matrix @ sum(cosine[j] * a[k - j] for j in range(k + 1))
-        a.append(-(h * (k + 1) * (p.C @ a[k + 1]) + h * h * force) / ((k + 1) * (k + 2)))
-    Q = sum(reversed(a))
-    V = sum(k * a[k] for k in reversed(range(1, order + 1))) / h
+        pulsating.append((H_s, _cosine(s * p.omega_L, tau, h, order)))
+    Q, V = second_order(X[:n, :], X[n:, :], h, order, (p.F, pulsating), (p.C, ()))
     return ca.Function("step", [X, tau, h, *p], [ca.vertcat(Q, V)])
 
 
 def _cosine(frequency: Any, tau: Any, h: Any, order: int) -> list[Any]:
     """Taylor coefficients of cos(frequency (tau + x h)) in x."""
-    c, s = ca.cos(frequency * tau), ca.sin(frequency * tau)
-    turn = [c, -s, -c, s]
-    return [turn[j % 4] * (frequency * h) ** j / factorial(j) for j in range(order)]
+    phase = frequency * tau
+    return cosine(ca.cos(phase), ca.sin(phase), frequency * h, order)

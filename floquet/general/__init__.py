@@ -1,0 +1,1 @@
+"""Any linear periodic system: nothing is known of it but its period."""

@@ -1,0 +1,133 @@
+"""The monodromy matrix of a general periodic equation, its multipliers, exponents and T.
+
+Nothing is known of such an equation but its period, so all of that is integrated, in parts. Their
+product is the monodromy matrix; multipliers that the product has lost, as they are smaller than its
+rounding, come from the parts themselves (`floquet.general.modes`).
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from floquet.accuracy import OVERFLOW, ROUNDING_SAFETY, SAFETY, Bounded, bounded
+from floquet.arrays import EPS, Float
+from floquet.charpoly import characteristic_polynomial
+from floquet.eigenvalues import discs_from_matrix, discs_from_polynomial, sorted_eigenvalues
+from floquet.general.modes import condition, merged, periodic_discs
+from floquet.growth import LogDiscs, growth_from_multipliers, logarithms
+from floquet.integrate.methods import METHODS
+from floquet.integrate.normal_form import NormalForm, normal_form
+from floquet.integrate.parts import Grid, parts_needed
+from floquet.integrate.parts_taylor import PartsTaylor
+from floquet.products import chain
+from floquet.result import Monodromy
+from hill import PeriodicEquation
+
+# Steps of the run and of its check in one part: orders 24 and 29 need steps in about that ratio.
+STEPS, CHECK_STEPS = 3, 2
+# The same where parts are as short as a step, so that none loses what decays.
+SHORT_STEPS, SHORT_CHECK_STEPS = 2, 3
+
+# The product's smallest multipliers are known to this many ulps at worst; beyond, the parts' own.
+MAX_CONDITION = 1e4
+
+# Rounding of a step, in ulps of the moduli summed.
+ULPS = 1.5
+
+
+@dataclass(frozen=True, eq=False)
+class _Run:
+    """What a method and its check make of the parts, and of their product; bounds as in `Parts`."""
+
+    grid: Grid
+    parts: Float
+    check: Float
+    parts_rounding: Float
+    product: Float
+    product_check: Float
+    rounding: Float
+    data: Float
+
+
+def general_monodromy(
+    equation: PeriodicEquation, method: str, rounded: Float | float = 0.0
+) -> Monodromy:
+    """As `floquet.monodromy`; `rounded` is what K is off already."""
+    form = normal_form(equation, rounded)
+    steps = PartsTaylor().steps(form)
+    run = _run(form, method, parts_needed(steps, STEPS), STEPS, CHECK_STEPS)
+    decays = not condition(run.product) < MAX_CONDITION
+    if decays:
+        run = _run(form, method, steps, SHORT_STEPS, SHORT_CHECK_STEPS)
+    floor = METHODS[method].parts_floor
+    found = bounded(run.product, run.product_check, run.rounding, ULPS, floor)
+    families = _families(run, found, floor, decays=decays)
+    m = len(run.product)
+    growth = growth_from_multipliers(families, form.period, form.period * form.trace / m)
+    value, off = logarithms(families)
+    units = form.state_units(run.grid.unit)
+    matrix, matrix_error = (units[:, None] * x / units for x in (run.product, found.matrix_error))
+    with np.errstate(under="ignore"):
+        multipliers = np.exp(value)
+    return Monodromy(
+        matrix=matrix,
+        multipliers=multipliers,
+        exponents=value / form.period,
+        exponent_errors=off / form.period,
+        polynomial=found.p,
+        errors=found.errors,
+        matrix_error=matrix_error,
+        data_error=_data(run),
+        z=np.empty(0, complex),
+        T=growth.T,
+        T_error=growth.T_error,
+        verdict=growth.verdict,
+        liouville_defect=_liouville(run.check, form),
+        reversibility_defect=float("nan"),
+        method=method,
+        half_period=False,
+    )
+
+
+def _run(form: NormalForm, method: str, count: int, steps: int, check_steps: int) -> _Run:
+    how = METHODS[method]
+    grid = Grid.of(form, count, steps)
+    with np.errstate(over="ignore", invalid="ignore"):
+        own = PartsTaylor().bounded(form, grid)
+        product, rounding, data = chain(own.matrices, own.rounding, own.data)
+    # not every method tells by itself that the solution is beyond a float
+    if not all(np.all(np.isfinite(x)) for x in (product, rounding)):
+        raise OverflowError(OVERFLOW)
+    parts = own.matrices
+    if how.parts != PartsTaylor():
+        parts = how.parts(form, grid)
+        (product,) = chain(parts)
+    check = how.parts_check(form, Grid(count, check_steps, grid.unit))
+    (product_check,) = chain(check)
+    return _Run(grid, parts, check, own.rounding, product, product_check, rounding, data)
+
+
+def _families(run: _Run, found: Bounded, floor: float, *, decays: bool) -> list[LogDiscs]:
+    """Sets of discs, each of which holds all multipliers; the first are the best where possible."""
+    by_polynomial = discs_from_polynomial(sorted_eigenvalues(run.product), found.p, found.errors)
+    if not decays:
+        by_matrix = discs_from_matrix(run.product, found.matrix_error)
+        return [LogDiscs.of(by_matrix), LogDiscs.of(by_polynomial)]
+    apart = np.abs(run.parts - run.check)
+    share = float(np.max(apart / run.parts_rounding))
+    own = floor + ROUNDING_SAFETY * EPS * ULPS
+    errors = SAFETY * np.maximum(apart, share * run.parts_rounding) + own * run.parts_rounding
+    return [*periodic_discs(*merged(run.parts, errors)), LogDiscs.of(by_polynomial)]
+
+
+def _data(run: _Run) -> float:
+    """What the errors of the equation's numbers may move P by, to first order."""
+    if not np.any(run.data):
+        return 0.0
+    return float(np.max(characteristic_polynomial(run.product, run.data)[1]))
+
+
+def _liouville(parts: Float, form: NormalForm) -> float:
+    sign, log = np.linalg.slogdet(parts)
+    ratio = float(np.sum(log) - form.period * form.trace)
+    return float("inf") if ratio > 700.0 else float(np.abs(np.prod(sign) * np.exp(ratio) - 1.0))
