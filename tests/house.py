@@ -66,8 +66,8 @@ COMPUTED = {"equation", "frequencies", "longitudinal_resonances", "natural_frequ
 ANSWERS = {
     "floquet.batch.equations.Polynomials",
     "floquet.batch.equations.polynomials",
-    "floquet.period.Monodromy",
     "floquet.period.monodromy",
+    "floquet.result.Monodromy",
     "floquet.sensitivity.equation.Sensitivities",
     "floquet.sensitivity.system.BeamSensitivities",
     "floquet.sensitivity.system.beam_sensitivities",

@@ -27,7 +27,7 @@ class Layout:
         Rows of the matrices.
     first_order : bool
         Whether there is only x' = A x; `stiffness` then means A.
-    frequencies : int
+    harmonics : int
         How many different ones there are.
     stiffness, damping : tuple of Harmonic
         What pulsates.
@@ -37,7 +37,7 @@ class Layout:
 
     n: int
     first_order: bool
-    frequencies: int
+    harmonics: int
     stiffness: tuple[Harmonic, ...]
     damping: tuple[Harmonic, ...]
     damped: bool
@@ -139,7 +139,7 @@ def normal_form(equation: PeriodicEquation, rounded: Float | float = 0.0) -> Nor
         layout=Layout(
             n=n,
             first_order=second is None,
-            frequencies=len(harmonics),
+            harmonics=len(harmonics),
             stiffness=stiffness_terms,
             damping=damping_terms,
             damped=bool(np.any(C)),

@@ -47,7 +47,7 @@ class PartsCvodes:
 @lru_cache(maxsize=32)
 def _integrator(layout: Layout, tolerance: float) -> Any:
     """Integrator over x in [0, 1], from the start of a part to its end."""
-    n, m, size = layout.n, layout.order, layout.frequencies
+    n, m, size = layout.n, layout.order, layout.harmonics
     sym = ca.SX.sym
     x, h, turn, phase = sym("x"), sym("h"), sym("turn", size), sym("phase", size)
     angle = phase + x * turn

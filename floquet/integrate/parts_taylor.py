@@ -123,8 +123,8 @@ def _step(layout: Layout, order: int) -> Any:
     pulsating = 2 + len(layout.stiffness) + len(layout.damping)
     operations = n * m * order * (order + 2 * m) * pulsating // 2
     kind: Any = ca.SX if operations < SX_OPERATIONS else ca.MX
-    h, turn = kind.sym("h"), kind.sym("turn", layout.frequencies)
-    c, s = kind.sym("c", layout.frequencies), kind.sym("s", layout.frequencies)
+    h, turn = kind.sym("h"), kind.sym("turn", layout.harmonics)
+    c, s = kind.sym("c", layout.harmonics), kind.sym("s", layout.harmonics)
 
     def system(matrix: Any, harmonics: Sequence[Harmonic]) -> tuple[Any, list[recurrence.Term]]:
         mean, *parts = ca.horzsplit(matrix, n)
