@@ -18,8 +18,9 @@ import hill.averaging
 import hill.batch
 from floquet import monodromy
 from floquet.batch.equations import WORTH_COMPILING
+from floquet.vehicle.discretise import discretised
 from floquet.weak_form import galerkin
-from hill import HillEquation, SteppedBeam, UniformBeam, characteristic
+from hill import HillEquation, Section, SteppedBeam, Thrust, UniformBeam, Vehicle, characteristic
 
 FORCING = (1.82, 0.1)
 BEAMS = {
@@ -28,6 +29,12 @@ BEAMS = {
         T0=20.0, K_theta=1.0, xi_G=0.5, xi_c=0.6, area_ratio=0.6, inertia_ratio=0.6
     ),
 }
+VEHICLE = Vehicle(
+    sections=(Section(1.0, 1.0, 1.0), Section(2.0, (1.0, 0.5), 2.0, EA=3.0)),
+    thrust=Thrust(1.0),
+    g=0.1,
+    modes=2,
+)
 EQUATION = HillEquation([[2.0, 0.3], [0.2, 1.0]], [[1.0, 2.0], [3.0, 1.0]], 0.3, 1.3, 0.05)
 DASHPOT = HillEquation(EQUATION.F, EQUATION.G, 0.3, 1.3, [[0.2, 0.0], [0.0, 0.1]])
 WITH_H = HillEquation(EQUATION.F, EQUATION.G, 0.3, 1.3, 0.05, [np.eye(2)], 2.6)
@@ -46,6 +53,7 @@ BY_FLOQUET: dict[str, Callable[[], Any]] = {
     "sensitivities, damping matrix": lambda: floquet.sensitivities(DASHPOT),
     "galerkin, uniform": lambda: galerkin(BEAMS["uniform"], *FORCING, 0.01, 2),
     "galerkin, stepped": lambda: galerkin(BEAMS["stepped"], *FORCING, 0.01),
+    "finite elements": lambda: discretised(VEHICLE, 30.0, 0.1),
     "beam sensitivities": lambda: floquet.beam_sensitivities(BEAMS["uniform"], *FORCING),
     "unchecked": lambda: floquet.unchecked.unchecked_growth(
         floquet.unchecked.unchecked_polynomials([EQUATION]), 1.3

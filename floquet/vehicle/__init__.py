@@ -1,0 +1,1 @@
+"""The witness's vehicle: finite elements of the weak form, assembled by scikit-fem."""
