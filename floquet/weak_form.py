@@ -15,6 +15,7 @@ from scipy.optimize import brentq
 from hill import HillEquation, LongitudinalResonance, SteppedBeam, UniformBeam, checks
 
 Array = NDArray[np.float64]
+Complex = NDArray[np.complexfloating]
 Force = Callable[[Array], Array]
 
 # Worst error measured for the mean of exp(i k xi) or exp(k xi) over a panel of k h <= PANEL_PHASE:
@@ -121,6 +122,26 @@ def galerkin(
     )
 
 
+def out_of_phase(beam: UniformBeam, Omega: float) -> Array:
+    """What stands beside -gamma sin(Omega tau) as G stands beside gamma cos(Omega tau).
+
+    The force of a damped bar that the report leaves out: Im Phi* in place of Re Phi* (4.2.39).
+
+    Returns
+    -------
+    (N + 1, N + 1) ndarray
+    """
+    wave = np.sqrt((Omega / beam.omega_L) ** 2 - 1j * beam.g)
+    force = _uniform_wave(beam, wave, Omega)
+    roots = _roots(beam.modes)
+    xi, weight = _rule(2.0 * roots[-1] + np.pi * abs(wave), 0.0)
+    w, slope, _ = _trial(roots, xi)
+    mass = roots[0] ** 4 * _inner(w, w, weight)
+    stiffness = -beam.T0 * _inner(slope, slope, weight * np.imag(force(xi)))
+    matrix: Array = np.linalg.solve(mass, stiffness)[:-1, :-1]
+    return matrix
+
+
 def _refuse_terms(beam: UniformBeam | SteppedBeam, terms: int) -> None:
     if terms and isinstance(beam, SteppedBeam):
         raise ValueError(f"initial_terms = {terms}: must be 0 for a stepped beam, it has no period")
@@ -140,15 +161,21 @@ def _refuse_resonance(sine: float, sigma: float, Omega: float) -> None:
 
 
 def _uniform_force(beam: UniformBeam, wave: complex, Omega: float) -> Force:
-    """Phi = Re sin(z xi)/sin(z), z = pi (sigma**2 - i g)**(1/2); Phi = xi for z = 0."""
+    """Phi = Re Phi*."""
+    force = _uniform_wave(beam, wave, Omega)
+    return lambda xi: np.real(force(xi))
+
+
+def _uniform_wave(beam: UniformBeam, wave: complex, Omega: float) -> Callable[[Array], Complex]:
+    """Phi* = sin(z xi)/sin(z), z = pi (sigma**2 - i g)**(1/2); Phi* = xi for z = 0."""
     if wave == 0:
-        return lambda xi: xi
+        return lambda xi: xi.astype(complex)
     if beam.g == 0.0:
         _refuse_resonance(float(np.sin(np.pi * wave.real)), wave.real, Omega)
     # Im z <= 0: exp(i z xi) grows, so it is written from the far end; expm1 keeps a small z exact.
     z = np.pi * wave
     far = np.expm1(-2j * z)
-    return lambda xi: np.real(np.exp(1j * z * (xi - 1.0)) * np.expm1(-2j * z * xi) / far)
+    return lambda xi: np.exp(1j * z * (xi - 1.0)) * np.expm1(-2j * z * xi) / far
 
 
 def _stepped_force(beam: SteppedBeam, sigma: float, Omega: float) -> Force:

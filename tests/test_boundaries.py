@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.linalg import eigh_tridiagonal
 
-from compare.report.figures.one_route import Batched, family, solve
+from compare.report.one_route import Batched, family, solve
 from compare.stability.indicators import (
     crossings,
     deepest,

@@ -15,15 +15,19 @@ from scipy.integrate import solve_ivp
 
 import compare.commands.claims as command
 from compare.__main__ import main
-from compare.report.claims import Judged, RoutesDisagree, claims, judge, page
+from compare.report.claims import JudgedClaim, RoutesDisagree, claims, judge, page
 from compare.report.claims.finding import CHECKS, Finding, Number, graded
 from compare.report.claims.run import check_of
+from compare.report.one_route import integral_of_force
+from floquet import weak_form
+from hill import UniformBeam, axial_force
 
 cases = import_module("compare.report.claims.cases")
 initial = import_module("compare.report.claims.initial")
-quadrature = import_module("compare.report.claims.quadrature")
+out_of_phase = import_module("compare.report.claims.out_of_phase")
 resonance = import_module("compare.report.claims.resonance")
-routes = import_module("compare.report.claims.routes")
+comparison = import_module("compare.both_routes")
+both_routes = import_module("compare.report.claims.both_routes")
 tongues = import_module("compare.report.claims.tongues")
 damping = import_module("compare.report.claims.damping")
 compliance = import_module("compare.report.claims.compliance")
@@ -34,15 +38,15 @@ QUICK = "integrals"
 
 
 @pytest.fixture(scope="module")
-def judged() -> dict[str, Judged]:
+def judged() -> dict[str, JudgedClaim]:
     return {one.claim.id: one for one in judge()}
 
 
 @pytest.fixture
 def afresh() -> Iterator[None]:
     """No number from an earlier test, and none of this one's left behind."""
-    saved = routes.both
-    routes.both.cache_clear()
+    saved = both_routes.both
+    both_routes.both.cache_clear()
     cases.regions.cache_clear()
     yield
     saved.cache_clear()
@@ -53,20 +57,20 @@ def afresh() -> Iterator[None]:
 
 
 @pytest.mark.parametrize("name", IDS)
-def test_verdict_is_the_one_on_record(name: str, judged: dict[str, Judged]) -> None:
+def test_verdict_is_the_one_on_record(name: str, judged: dict[str, JudgedClaim]) -> None:
     one = judged[name]
     assert one.as_expected, one.finding
 
 
 @pytest.mark.parametrize("name", IDS)
-def test_both_routes_print_the_same(name: str, judged: dict[str, Judged]) -> None:
+def test_both_routes_print_the_same(name: str, judged: dict[str, JudgedClaim]) -> None:
     for number in judged[name].finding.numbers:
         assert np.isfinite(number.hill)
         hill, floquet = number.texts
         assert floquet in ("", hill), number
 
 
-def test_page_is_up_to_date(judged: dict[str, Judged]) -> None:
+def test_page_is_up_to_date(judged: dict[str, JudgedClaim]) -> None:
     assert page.page(judged.values()) == PAGE.read_text()
 
 
@@ -88,7 +92,7 @@ def test_data_are_complete() -> None:
         assert len(entry["title"]) <= 40
 
 
-def test_becauses_are_sentences(judged: dict[str, Judged]) -> None:
+def test_becauses_are_sentences(judged: dict[str, JudgedClaim]) -> None:
     for one in judged.values():
         assert one.finding.because[0].isupper() or one.finding.because[0].isdigit()
         assert one.finding.because.endswith(".")
@@ -129,7 +133,7 @@ def test_another_threshold_is_another_verdict(
     value: float,
     name: str,
     verdict: str,
-    judged: dict[str, Judged],
+    judged: dict[str, JudgedClaim],
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     assert judged[name].finding.verdict != verdict
@@ -138,10 +142,10 @@ def test_another_threshold_is_another_verdict(
 
 
 def test_a_gap_without_its_quadrature_would_be_confirmed(
-    judged: dict[str, Judged], monkeypatch: pytest.MonkeyPatch
+    judged: dict[str, JudgedClaim], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     assert judged["gap"].finding.verdict == "qualified"
-    nothing = replace(quadrature.sine_alone(resonance.bar(0.04), 2.0), hill=0.0, stable=True)
+    nothing = replace(out_of_phase.sine_alone(resonance.bar(0.04), 2.0), hill=0.0, stable=True)
     monkeypatch.setattr(resonance, "sine_alone", lambda *_: nothing)
     assert check_of("gap")().verdict == "confirmed"
 
@@ -162,22 +166,38 @@ def test_more_terms_change_no_verdict_of_table_3() -> None:
 
 @pytest.mark.usefixtures("afresh")
 def test_routes_that_disagree_are_loud(monkeypatch: pytest.MonkeyPatch) -> None:
-    def wrong(equation: object) -> object:
-        right = routes_monodromy(equation)
+    def wrong(equation: object, **options: object) -> object:
+        right = routes_monodromy(equation, **options)
         return replace(right, T=right.T + 1e-3)
 
-    routes_monodromy = routes.monodromy
-    monkeypatch.setattr(routes, "monodromy", wrong)
+    routes_monodromy = comparison.monodromy
+    monkeypatch.setattr(comparison, "monodromy", wrong)
     with pytest.raises(RoutesDisagree, match=r"the routes disagree: .* at Omega = 1\.1"):
-        routes.both(cases.uniform(), 1.1)
+        both_routes.both(cases.uniform(), 1.1)
     with pytest.raises(RoutesDisagree):
         check_of("broad")()
+
+
+def test_boundaries_that_disagree_are_loud(monkeypatch: pytest.MonkeyPatch) -> None:
+    beam = cases.uniform()
+    found = both_routes.boundary(beam, 1.1, 1.2)
+    assert abs(found.hill - found.floquet) < 1e-10
+    assert not both_routes.both(beam, found.hill - 1e-5).stable
+    assert both_routes.both(beam, found.hill + 1e-5).stable
+    right = both_routes.solve
+    # P(z) of z a little larger: an edge a little farther out
+    moved = np.array([0.0, 1e-7, 0.0, 0.0])
+    monkeypatch.setattr(
+        both_routes, "solve", lambda route, e: right(route, e) + moved * (route == "floquet")
+    )
+    with pytest.raises(RoutesDisagree, match="boundaries disagree"):
+        both_routes.boundary(beam, 1.1, 1.2)
 
 
 def whole_force(g: float, Omega: float, parts: tuple[float, float] = (1.0, 1.0)) -> float:
     """T with Re Phi* cos - Im Phi* sin, integrated over one period."""
     beam = resonance.bar(g)
-    equation, sine = beam.equation(Omega, 0.1), quadrature.sine_part(beam, Omega)
+    equation, sine = beam.equation(Omega, 0.1), axial_force.out_of_phase(beam, Omega)
     n, period = equation.n, 2.0 * np.pi / Omega
 
     def rate(tau: float, flat: np.ndarray) -> np.ndarray:
@@ -198,26 +218,40 @@ def whole_force(g: float, Omega: float, parts: tuple[float, float] = (1.0, 1.0))
 def test_the_whole_force_is_unstable_where_the_report_s_is_not(
     g: float, Omega: float, T: float
 ) -> None:
-    assert routes.both(resonance.bar(g), Omega).stable
+    assert both_routes.both(resonance.bar(g), Omega).stable
     assert whole_force(g, Omega) == pytest.approx(T, abs=1e-4)
-    alone = quadrature.sine_alone(resonance.bar(g), Omega).hill
+    alone = out_of_phase.sine_alone(resonance.bar(g), Omega).hill
     assert whole_force(g, Omega, (0.0, 1.0)) == pytest.approx(alone, abs=1e-8)
 
 
 def test_the_report_s_part_alone_is_the_report_s_equation() -> None:
-    T = routes.both(resonance.bar(0.04), 1.95).hill
+    T = both_routes.both(resonance.bar(0.04), 1.95).hill
     assert whole_force(0.04, 1.95, (1.0, 0.0)) == pytest.approx(T, abs=1e-8)
+
+
+def test_an_undamped_bar_has_no_force_out_of_phase() -> None:
+    for module in (axial_force, weak_form):
+        assert np.max(np.abs(module.out_of_phase(resonance.bar(0.0), 1.9))) < 1e-15
+
+
+def test_the_integral_of_the_force_is_tan_over_its_argument() -> None:
+    """Closed form, (1 - cos z)/(z sin z) = tan(z/2)/z; both routes take it out of their G."""
+    beam = UniformBeam(T0=1.0, K_theta=0.0, xi_G=0.0, omega_L=1.0, g=0.04)
+    for sigma in (0.5, 0.98, 1.0, 1.5):
+        z = np.pi * np.sqrt(sigma**2 - 0.04j)
+        for route in ("hill", "floquet"):
+            found = integral_of_force(route, beam, sigma)
+            # rounding of G: 2e-14 measured
+            assert abs(found - np.tan(0.5 * z) / z) < 1e-12
 
 
 def test_sine_part_by_two_ways_and_at_resonance() -> None:
     beam = resonance.bar(0.04)
     for Omega in (0.5, 1.95, 2.0, 4.0):
-        one, other = (
-            f(beam, Omega) for f in (quadrature.sine_part, quadrature.sine_part_by_quadrature)
-        )
+        one, other = (f(beam, Omega) for f in (axial_force.out_of_phase, weak_form.out_of_phase))
         assert np.max(np.abs(one - other)) < 1e-12 * np.max(np.abs(one))
     # there Phi* is nearly -2i/(pi g) sin(pi xi), so that the sine part is the larger by far
-    ratio = np.max(np.abs(quadrature.sine_part(beam, 2.0))) / np.max(
+    ratio = np.max(np.abs(axial_force.out_of_phase(beam, 2.0))) / np.max(
         np.abs(beam.equation(2.0, 0.1).G)
     )
     assert ratio > 10.0
@@ -244,7 +278,7 @@ def test_json_holds_everything(capsys: pytest.CaptureFixture[str]) -> None:
 def test_text_fits_80_columns(
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
-    judged: dict[str, Judged],
+    judged: dict[str, JudgedClaim],
 ) -> None:
     monkeypatch.setattr(command, "terminal", lambda: command.Console(width=80))
     monkeypatch.setattr(command, "judge", lambda *_, **__: tuple(judged.values()))
@@ -259,7 +293,7 @@ def test_text_fits_80_columns(
 def test_a_verdict_selects_what_is_listed(
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
-    judged: dict[str, Judged],
+    judged: dict[str, JudgedClaim],
 ) -> None:
     monkeypatch.setattr(command, "judge", lambda *_, **__: tuple(judged.values()))
     assert main(["claims", "--verdict", "refuted", "--format", "json"]) == 0
@@ -277,9 +311,11 @@ def test_output_goes_to_a_file(tmp_path: Path, capsys: pytest.CaptureFixture[str
 
 
 def test_exit_status_1_where_a_verdict_is_new(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], judged: dict[str, Judged]
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+    judged: dict[str, JudgedClaim],
 ) -> None:
-    new = Judged(judged[QUICK].claim, Finding((), "refuted", "Changed."))
+    new = JudgedClaim(judged[QUICK].claim, Finding((), "refuted", "Changed."))
     monkeypatch.setattr(command, "judge", lambda *_, **__: (new,))
     assert main(["claims", QUICK]) == 1
     assert f"differ from the record: {QUICK}" in capsys.readouterr().out

@@ -15,7 +15,7 @@ from compare.report.program.collate import (
     KINDS,
     NUMBER,
     Difference,
-    Judged,
+    LineComparison,
     collate,
     compare,
     differences,
@@ -79,7 +79,7 @@ def text(found: list[object]) -> list[str]:
 
 
 @cache
-def regenerated(program: str) -> tuple[Judged, ...]:
+def regenerated(program: str) -> tuple[LineComparison, ...]:
     """Both listings, as run, held against print."""
     return tuple(collate(printed_output(program), text(run(shipped(program), program))))
 
@@ -123,7 +123,7 @@ def test_lines_that_come_back(program: str) -> None:
 LISTED = {(d.program, d.place): d for d in differences()}
 
 
-def found_for(difference: Difference) -> Judged:
+def found_for(difference: Difference) -> LineComparison:
     return next(j for j in regenerated(difference.program) if j.place == difference.place)
 
 

@@ -15,9 +15,9 @@ from rich.text import Text
 from compare.commands.terminal import progress, terminal
 from compare.output import check_writable, write_whole
 from compare.report.claims import page
+from compare.report.claims.both_routes import RoutesDisagree
 from compare.report.claims.finding import VERDICTS
-from compare.report.claims.routes import RoutesDisagree
-from compare.report.claims.run import Judged, judge, select
+from compare.report.claims.run import JudgedClaim, judge, select
 
 STYLES = {"confirmed": "green", "qualified": "yellow", "refuted": "red"}
 SUMMARY = "go through the report's conclusions, each with numbers by both routes and a verdict"
@@ -73,12 +73,12 @@ def run(options: argparse.Namespace) -> int:
     return 0 if all(one.as_expected for one in judged) else 1
 
 
-def _shown(judged: tuple[Judged, ...], options: argparse.Namespace) -> tuple[Judged, ...]:
+def _shown(judged: tuple[JudgedClaim, ...], options: argparse.Namespace) -> tuple[JudgedClaim, ...]:
     wanted = options.verdict
     return tuple(one for one in judged if wanted in (None, one.finding.verdict))
 
 
-def _content(judged: tuple[Judged, ...], options: argparse.Namespace) -> str | None:
+def _content(judged: tuple[JudgedClaim, ...], options: argparse.Namespace) -> str | None:
     """What to write; None for text on the terminal."""
     kind = options.format
     if kind is None:
@@ -98,7 +98,7 @@ def _content(judged: tuple[Judged, ...], options: argparse.Namespace) -> str | N
 
 
 def print_text(
-    shown: Iterable[Judged], judged: Iterable[Judged], *, details: bool, console: Console
+    shown: Iterable[JudgedClaim], judged: Iterable[JudgedClaim], *, details: bool, console: Console
 ) -> None:
     """Print a table, with the numbers of each claim if asked, and the two lines."""
     listed = tuple(shown)
@@ -118,12 +118,12 @@ def print_text(
         console.print(line, style="bold", soft_wrap=True)
 
 
-def _verdict(one: Judged) -> Text:
+def _verdict(one: JudgedClaim) -> Text:
     mark = "" if one.as_expected else "!"
     return Text(one.finding.verdict + mark, style=STYLES[one.finding.verdict])
 
 
-def _details(one: Judged, console: Console) -> None:
+def _details(one: JudgedClaim, console: Console) -> None:
     console.print(Text(one.claim.id, style="bold"), _verdict(one))
     console.print(Padding(Text(one.claim.claim, style="italic"), (0, 2)))
     console.print(Padding(Text(one.finding.because), (0, 2)))

@@ -10,7 +10,7 @@ from compare.output import check_writable, write_whole
 from compare.report.program.cards import Deck, read_deck
 from compare.report.program.collate import (
     Difference,
-    Judged,
+    LineComparison,
     State,
     collate,
     compare,
@@ -101,7 +101,7 @@ def regenerate(deck: Deck, route: Route) -> tuple[list[str], int]:
     return written, failed
 
 
-def report(program: str, judged: list[Judged]) -> tuple[list[str], bool]:
+def report(program: str, judged: list[LineComparison]) -> tuple[list[str], bool]:
     """Lines that say what differs and why, and whether everything that differs is known."""
     known = {d.place: d for d in differences() if d.program == program}
     written, last, strangers = [], None, 0
@@ -122,7 +122,7 @@ def report(program: str, judged: list[Judged]) -> tuple[list[str], bool]:
     return [*written[1:], "", *_summary(judged, strangers)], not strangers
 
 
-def _as_listed(listed: Difference, found: Judged) -> bool:
+def _as_listed(listed: Difference, found: LineComparison) -> bool:
     """Whether a line differs just as the list says; to one unit, for other arithmetic than ours."""
     return (
         listed.printed == found.printed
@@ -131,7 +131,7 @@ def _as_listed(listed: Difference, found: Judged) -> bool:
     )
 
 
-def _summary(judged: list[Judged], strangers: int) -> list[str]:
+def _summary(judged: list[LineComparison], strangers: int) -> list[str]:
     """Counts, blank lines left out."""
     counts = Counter(j.state for j in judged if j.printed and j.printed.strip())
     total = sum(counts.values())

@@ -15,8 +15,8 @@ from compare.report.recover import HALF_UNIT, T_AS_RUN, Z_AS_RUN
 from compare.report.tables import Row, corrected
 from floquet.weak_form import galerkin
 from hill import HillEquation, characteristic
-from hill.determinant import finite, residues
-from hill.stability import Verdict, stability_of
+from hill.determinant.residues import as_the_report
+from hill.stability import Verdict
 
 Complex = NDArray[np.complexfloating[Any, Any]]
 Cause = Literal["agrees", "truncation", "listing-slip", "misprint", "unexplained"]
@@ -181,11 +181,8 @@ def _cause(row: Row, own: HillEquation, converged: Found, as_run: Found) -> tupl
 
 def _truncated(eq: HillEquation) -> Found:
     """T and z with the report's truncation, where its residues exist."""
-    polynomial = residues.polynomial(finite.blocks(eq), residues.report_rule(eq))
-    if polynomial is None:
-        return float("nan"), np.full(eq.n, np.nan, complex)
-    found = stability_of(polynomial, 0.0, eq.Omega, eq.damping)
-    return found.T, found.z
+    found = as_the_report(eq)
+    return (found.T, found.z) if found else (float("nan"), np.full(eq.n, np.nan, complex))
 
 
 def _returns(row: Row, found: Found, tolerances: tuple[float, float] = AS_RUN) -> bool:

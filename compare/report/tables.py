@@ -14,19 +14,6 @@ from hill import SteppedBeam, UniformBeam
 DATA = files("compare") / "report" / "data"
 TABLES = (1, 2, 3)
 
-UNIFORM = {"T0": 20.0, "K_theta": 0.5, "xi_G": 0.5}
-"""Table 1."""
-
-STEPPED = {
-    "T0": 20.0,
-    "K_theta": 1.0,
-    "xi_G": 0.5,
-    "xi_c": 0.6,
-    "area_ratio": 0.6,
-    "inertia_ratio": 0.6,
-}
-"""Table 2."""
-
 
 @dataclass(frozen=True)
 class Row:
@@ -92,12 +79,9 @@ class Row:
 
     def beam(self, modes: int) -> UniformBeam | SteppedBeam:
         """The beam of the table's heading, with this many bending modes."""
-        names = ["T0", "K_theta", "xi_G"]
+        common = parameters(self.table)
         if self.run["beam"] == "uniform":
-            common = {name: self.run[name] for name in names}
             return UniformBeam(**common, g=self.run["g"], omega_L=self.omega_L, modes=modes)
-        names += ["xi_c", "area_ratio", "inertia_ratio"]
-        common = {name: self.run[name] for name in names}
         return SteppedBeam(**common, omega_L=self.omega_L, modes=modes)
 
     @property
@@ -122,6 +106,20 @@ def number(text: str) -> float:
 def heading(table: int) -> dict[str, Any]:
     """The TOML beside a table: its heading as printed, and the parameters it was run with."""
     return tomllib.loads((DATA / f"table{table}.toml").read_text())
+
+
+def parameters(table: int) -> dict[str, float]:
+    """The parameters that a table's beam has in every row."""
+    names = ("T0", "K_theta", "xi_G", "xi_c", "area_ratio", "inertia_ratio")
+    run = heading(table)["run"]
+    return {name: run[name] for name in names if name in run}
+
+
+UNIFORM = parameters(1)
+"""The beam of Table 1."""
+
+STEPPED = parameters(2)
+"""The beam of Table 2."""
 
 
 @cache

@@ -3,8 +3,9 @@
 import numpy as np
 
 from hill.arrays import Complex, Float
-from hill.determinant.finite import Blocks
+from hill.determinant.finite import Blocks, blocks
 from hill.equation import HillEquation
+from hill.stability import Stability, stability_of
 
 MAX_HARMONICS = 14
 """The listing's largest M: 29 blocks of 3 rows just fit its 100 by 100 array."""
@@ -22,6 +23,17 @@ def report_rule(equation: HillEquation) -> tuple[int, ...]:
     diagonal = np.diag(equation.F) - 0.25 * equation.damping**2
     root = np.sqrt(np.abs(diagonal))
     return tuple(min(int((root.max() + r) / equation.Omega + 1.0), MAX_HARMONICS) for r in root)
+
+
+def as_the_report(equation: HillEquation) -> Stability | None:
+    """Z and T with the report's truncation, without a bound; None where its residues do not exist.
+
+    `hill.characteristic` with ``truncation="report"`` says how far that is from the converged ones.
+    """
+    found = polynomial(blocks(equation), report_rule(equation))
+    if found is None:
+        return None
+    return stability_of(found, 0.0, equation.Omega, equation.damping)
 
 
 def polynomial(system: Blocks, M: tuple[int, ...]) -> Float | None:

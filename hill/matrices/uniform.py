@@ -27,6 +27,12 @@ def pulsating(modes: int, T0: float, K_theta: float, xi_G: float, sigma: complex
     return _thrust(modes, T0, K_theta, xi_G, nu=np.pi * sigma)
 
 
+def out_of_phase(modes: int, T0: float, sigma: complex) -> Float:
+    """The same of Im Phi in place of Re Phi; the thrust itself has no such part."""
+    nu = np.pi * sigma
+    return -_scale(modes, T0) * np.imag(_pairs(modes, nu) / np.sinc(nu / np.pi))
+
+
 def free_vibration(modes: int, T0: float, gamma: float, sigma: float, s: int) -> Float:
     """H_s of Eqs. (4.5.27) to (4.5.30) for zero initial displacement and velocity."""
     nu = s * np.pi

@@ -1,7 +1,7 @@
-from compare.report.claims.finding import Finding as Finding
-from compare.report.claims.finding import Number as Number
-from compare.report.claims.routes import RoutesDisagree as RoutesDisagree
-from compare.report.claims.run import Claim as Claim
-from compare.report.claims.run import Judged as Judged
-from compare.report.claims.run import claims as claims
-from compare.report.claims.run import judge as judge
+"""The report's conclusions, each with numbers by both routes and a verdict."""
+
+from compare.report.claims.both_routes import RoutesDisagree
+from compare.report.claims.finding import Finding, Number
+from compare.report.claims.run import Claim, JudgedClaim, claims, judge
+
+__all__ = ["Claim", "Finding", "JudgedClaim", "Number", "RoutesDisagree", "claims", "judge"]

@@ -1,18 +1,29 @@
 """What transverse damping does (sections 7.3.1 and 8.3, abstract)."""
 
+from functools import partial
+
 import numpy as np
 from scipy.optimize import brentq
 
-from compare.report.claims.cases import ETA, GAMMA, beams, regions, resonances, uniform
-from compare.report.claims.finding import PRINTED, VISIBLE, Finding, Number, checks, graded, share
-from compare.report.claims.routes import both
+from compare.report.claims.both_routes import both, by_both
+from compare.report.claims.cases import ETA, GAMMA, Region, beams, regions, resonances, uniform
+from compare.report.claims.finding import (
+    PRINTED,
+    VISIBLE,
+    Finding,
+    Number,
+    check_for,
+    graded,
+    share,
+)
+from compare.report.one_route import RouteName
 from compare.report.tables import rows
 
 # A region is "larger" where damping of .01 leaves more than half of its T_x.
 LARGER = 2.0
 
 
-@checks("shift")
+@check_for("shift")
 def shift() -> Finding:
     """T(0) - T(eta) - eta, at the unstable rows of Tables 1 and 2 and at their resonances."""
     at_rows, at_tops = [], []
@@ -49,17 +60,18 @@ def shift() -> Finding:
     return Finding(numbers, verdict, because)
 
 
-@checks("larger-boundaries")
+@check_for("larger-boundaries")
 def larger_boundaries() -> Finding:
     """How much a damping of .01 narrows the regions it leaves."""
     numbers, moves = [], []
     for kind, beam in beams():
         left = {r.name: r for r in regions(beam, GAMMA, ETA)}
         for r in regions(beam):
-            if r.T_x >= LARGER * ETA:
-                moves.append(1.0 - left[r.name].radius / r.radius)
-                label = f"{kind}, {r.name}: narrower by"
-                numbers.append(Number(label, moves[-1], moves[-1], 3))
+            if r.hill.T_x >= LARGER * ETA:
+                numbers.append(
+                    by_both(f"{kind}, {r.name}: narrower by", partial(_lost, r, left), 3)
+                )
+                moves.append(numbers[-1].hill)
     small = sum(move <= VISIBLE for move in moves)
     verdict = graded(small == len(moves), small > 0)
     because = (
@@ -69,7 +81,12 @@ def larger_boundaries() -> Finding:
     return Finding(tuple(numbers), verdict, because)
 
 
-@checks("decay")
+def _lost(r: Region, damped: dict[str, Region], route: RouteName) -> float:
+    """The share of its radius that damping takes from a region."""
+    return 1.0 - damped[r.name].by(route).radius / r.by(route).radius
+
+
+@check_for("decay")
 def decay() -> Finding:
     """T where nothing is unstable, with damping and without."""
     numbers, kept, neutral = [], [], []
@@ -77,9 +94,10 @@ def decay() -> Finding:
         for Omega in (0.7, 2.1, 3.3, 4.3):
             damped, free = both(beam, Omega, GAMMA, ETA), both(beam, Omega)
             kept.append(damped.hill)
-            neutral.append(free.hill)
+            neutral.append(free)
             numbers.append(damped.number(f"{kind}, T at Omega = {Omega:g}, eta = .01"))
-    numbers.append(Number("largest T at these, eta = 0", max(neutral), max(neutral), 5))
+    largest = max(neutral, key=lambda T: T.hill)
+    numbers.append(largest.number("largest T at these, eta = 0"))
     verdict = graded(all(abs(T / -ETA - 1.0) <= VISIBLE for T in kept), all(T < 0.0 for T in kept))
     because = (
         "T is -eta there, so that vibrations die out like exp(-eta tau/2); without damping they "
@@ -88,7 +106,7 @@ def decay() -> Finding:
     return Finding(tuple(numbers), verdict, because)
 
 
-@checks("weak-regions")
+@check_for("weak-regions")
 def weak_regions() -> Finding:
     """Regions with T_x below eta, damped."""
     numbers, gone = [], []
@@ -96,7 +114,7 @@ def weak_regions() -> Finding:
         for r in regions(beam):
             if r.peak.hill >= ETA:
                 continue
-            span = np.linspace(r.low, r.high, 7)
+            span = np.linspace(r.hill.low, r.hill.high, 7)
             T = max((both(beam, float(x), GAMMA, ETA) for x in span), key=lambda p: p.hill)
             gone.append(T.stable)
             numbers.append(r.at_resonance.number(f"{kind}, {r.name}: T_x, eta = 0"))
@@ -106,14 +124,14 @@ def weak_regions() -> Finding:
     return Finding(tuple(numbers), verdict, because)
 
 
-@checks("small-thrust")
+@check_for("small-thrust")
 def small_thrust() -> Finding:
     """T at T0 = .001 without damping; the thrust at which T_x = eta with it."""
     tiny = uniform(T0=0.001)
     free = both(tiny, resonances(tiny)["2 omega_(2)"])
     numbers = [Number("10^3 T at 2 omega_(2), T0 = .001", 1e3 * free.hill, 1e3 * free.floquet, 5)]
     critical = {}
-    for name in ("2 omega_(B)", "omega_(B) + omega_(1)", "omega_(B) + omega_(2)", "2 omega_(2)"):
+    for name in ("2 omega_(B)", "omega_(1) + omega_(B)", "omega_(2) + omega_(B)", "2 omega_(2)"):
         critical[name] = _critical(name)
         numbers.append(Number(f"T0 where T_x = .01, {name}", critical[name], None, 2))
     least = min(critical.values())

@@ -4,9 +4,11 @@ import math
 
 import numpy as np
 
+from compare.report.claims.both_routes import Both, both, frequencies, real_frequencies, severest
 from compare.report.claims.cases import ETA, GAMMA, STEP, stepped, uniform
-from compare.report.claims.finding import Finding, Number, checks, graded, share
-from compare.report.claims.routes import Beam, Both, both, frequencies, real_frequencies, severest
+from compare.report.claims.finding import Finding, Number, check_for, graded, share
+from compare.report.one_route import Beam
+from hill.averaging import Resonance, first_order
 from hill.matrices.modes import eigenvalue
 
 LAMBDA_4 = 500.6
@@ -18,7 +20,7 @@ FREQUENCY = 2.0 * math.pi
 """Fundamental bending frequency without thrust, rad/s."""
 
 
-@checks("example-1-thrust")
+@check_for("example-1-thrust")
 def example_1_thrust() -> Finding:
     """T0 of the uniform vehicle."""
     own = eigenvalue(1) ** 4
@@ -31,7 +33,7 @@ def example_1_thrust() -> Finding:
     return Finding(numbers, verdict, f"The arithmetic gives {T0:.3f}.")
 
 
-@checks("example-1-stable")
+@check_for("example-1-stable")
 def example_1_stable() -> Finding:
     """Any instability at T0 = 5.1, gamma = .1, eta = .01."""
     drawn = {
@@ -57,7 +59,7 @@ def example_1_stable() -> Finding:
     return Finding(numbers, verdict, because)
 
 
-@checks("example-2-thrust")
+@check_for("example-2-thrust")
 def example_2_thrust() -> Finding:
     """omega_1 and T0 of the stepped vehicle, and what follows for it."""
     h, f = (sorted(w.real for w in route)[1] for route in frequencies(stepped(T0=0.0)))
@@ -94,9 +96,9 @@ def _worst(beam: Beam) -> Both:
     resonance at such thrusts, so that the resonances of every order that could be so strong do not
     miss a region; where T is highest a finer row of points follows.
     """
-    omega = real_frequencies(beam)
-    sums = [abs(a + s * b) for i, a in enumerate(omega) for b in omega[: i + 1] for s in (1, -1)]
+    omega = np.array(real_frequencies(beam), complex)
     orders = (1, 2, 3) if beam.modes == 2 else (1,)
-    points = [x / k for x in sums for k in orders if x / k > 0.1]
+    found = [Resonance(r.i, r.j, r.sign, k) for r in first_order(len(omega)) for k in orders]
+    points = [x for r in found if (x := r.Omega(omega)) > 0.1]
     best = max(points, key=lambda Omega: both(beam, Omega, GAMMA, ETA).hill)
     return severest(beam, best + ETA * np.linspace(-1.0, 1.0, 17), GAMMA, ETA)

@@ -55,7 +55,7 @@ CHECKS: dict[str, Callable[[], Finding]] = {}
 """The check of every claim, by id."""
 
 
-def checks(name: str) -> Callable[[Callable[[], Finding]], Callable[[], Finding]]:
+def check_for(name: str) -> Callable[[Callable[[], Finding]], Callable[[], Finding]]:
     """Register a function as the check of a claim."""
 
     def register(check: Callable[[], Finding]) -> Callable[[], Finding]:

@@ -3,22 +3,25 @@
 import numpy as np
 from scipy.special import jn_zeros, jv
 
+from compare.report.claims.both_routes import RoutesDisagree, both, frequencies, real_frequencies
 from compare.report.claims.cases import ETA, uniform
-from compare.report.claims.finding import VISIBLE, Finding, Number, checks, graded, share
-from compare.report.claims.routes import Beam, RoutesDisagree, both, frequencies, real_frequencies
-from floquet.weak_form import galerkin
+from compare.report.claims.finding import VISIBLE, Finding, Number, check_for, graded, share
+from compare.report.one_route import ROUTES, Beam
+from compare.report.steady import buckling, loss
 from hill import UniformBeam
 
 BUCKLING = 25.67
 COALESCENCE = 15.0
 # Half a unit of the last digit of 25.67.
 LAST_DIGIT = 0.005
-# What the quadratures of both routes leave of a critical thrust of 25.
+# What closed form and quadrature leave of a critical thrust of 25.
 THRUST_TOLERANCE = 1e-8
+# Up to where a loss of stability is looked for.
+HIGHEST = 30.0
 
 
-@checks("buckling")
-def buckling() -> Finding:
+@check_for("buckling")
+def buckling_load() -> Finding:
     """The least thrust at which a natural frequency vanishes."""
     modes = (2, 4, 8)
     settings = ((0.5, 0.5), (1.0, 0.2), (0.1, 0.9))
@@ -47,63 +50,54 @@ def many_modes() -> float:
 
 
 def _buckling(modes: int, K_theta: float, xi_G: float) -> tuple[float, float]:
-    """By both routes: F is linear in T0, so det F = 0 is an eigenvalue problem."""
+    """By both routes."""
 
-    def beam(T0: float) -> UniformBeam:
+    def at(T0: float) -> UniformBeam:
         return UniformBeam(T0=T0, K_theta=K_theta, xi_G=xi_G, modes=modes)
 
-    def critical(F_0: np.ndarray, F_1: np.ndarray) -> float:
-        roots = np.linalg.eigvals(np.linalg.solve(F_0 - F_1, F_0))
-        real = roots.real[np.isfinite(roots) & (np.abs(roots.imag) < 1e-9)]
-        return float(real[real > 1e-6].min())
+    return _agreed(*(buckling(at, HIGHEST, route) for route in ROUTES))
 
-    h = critical(beam(0.0).equation(1.0, 0.0).F, beam(1.0).equation(1.0, 0.0).F)
-    f = critical(galerkin(beam(0.0), 1.0, 0.0).F, galerkin(beam(1.0), 1.0, 0.0).F)
+
+def _agreed(h: float, f: float) -> tuple[float, float]:
     if abs(h - f) > THRUST_TOLERANCE:
         raise RoutesDisagree(f"the routes' critical thrusts disagree: {h:.9g}, {f:.9g}")
     return h, f
 
 
-@checks("coalescence")
+@check_for("coalescence")
 def coalescence() -> Finding:
     """The least thrust at which two frequencies meet, by sensor station."""
     stations = (0.0, 0.1, 0.2, 0.3)
     two = {xi: _coalescence(xi, 2) for xi in stations}
     eight = {xi: _coalescence(xi, 8) for xi in stations}
     numbers = [
-        Number(f"T0, {modes} modes, xi_G = {xi:g}", T0[xi], T0[xi], 2)
+        Number(f"T0, {modes} modes, xi_G = {xi:g}", *T0[xi], 2)
         for modes, T0, shown in ((2, two, stations[:3]), (8, eight, stations[:2]))
         for xi in shown
     ]
-    buckles = [xi for xi in stations if two[xi] > BUCKLING]
+    buckles = [xi for xi in stations if two[xi][0] > BUCKLING]
     numbers.append(Number("first station of these without", min(buckles), None, 1))
-    xi = min(two, key=lambda station: abs(two[station] - COALESCENCE))
-    near = abs(two[xi] / COALESCENCE - 1.0)
-    many = min(abs(T0 / COALESCENCE - 1.0) for T0 in eight.values())
+    xi = min(two, key=lambda station: abs(two[station][0] - COALESCENCE))
+    near = abs(two[xi][0] / COALESCENCE - 1.0)
+    many = min(abs(h / COALESCENCE - 1.0) for h, _ in eight.values())
     verdict = graded(near <= VISIBLE and many <= VISIBLE, near <= VISIBLE)
     because = (
-        f"With two modes it is {two[xi]:.2f} for a sensor at {xi:g}, the nearest of the grid; with "
-        f"eight it is {eight[0.0]:.1f} at the earliest, {share(many)} from 15 at best."
+        f"With two modes it is {two[xi][0]:.2f} for a sensor at {xi:g}, the nearest of the grid; "
+        f"with eight it is {eight[0.0][0]:.1f} at the earliest, {share(many)} from 15 at best."
     )
     return Finding(tuple(numbers), verdict, because)
 
 
-def _coalescence(xi_G: float, modes: int) -> float:
-    """Least T0 with a complex frequency: two that have met, or one that has vanished."""
+def _coalescence(xi_G: float, modes: int) -> tuple[float, float]:
+    """Least T0 with a complex frequency by both routes: two have met, or one has vanished."""
 
-    def lost(T0: float) -> bool:
-        beam = UniformBeam(T0=T0, K_theta=1.0, xi_G=xi_G, modes=modes)
-        return any(abs(w.imag) > 1e-6 for w in frequencies(beam)[0])
+    def at(T0: float) -> UniformBeam:
+        return UniformBeam(T0=T0, K_theta=1.0, xi_G=xi_G, modes=modes)
 
-    stable = next(T0 for T0 in np.arange(10.0, 30.0, 0.5) if lost(float(T0) + 0.5))
-    unstable = stable + 0.5
-    for _ in range(10):
-        middle = 0.5 * (stable + unstable)
-        stable, unstable = (stable, middle) if lost(float(middle)) else (middle, unstable)
-    return float(unstable)
+    return _agreed(*(loss(at, HIGHEST, route)[0] for route in ROUTES))
 
 
-@checks("above-buckling")
+@check_for("above-buckling")
 def above_buckling() -> Finding:
     """Whether anything is stable beyond T0 = 25.67."""
     steady = frequencies(uniform(T0=26.0))
@@ -126,7 +120,7 @@ def above_buckling() -> Finding:
     return Finding(numbers, verdict, because)
 
 
-@checks("damped-frequencies")
+@check_for("damped-frequencies")
 def damped_frequencies() -> Finding:
     """Damping and natural frequencies, read from the exponents of the equation without gamma."""
     beam, Omega = uniform(), 8.0  # above twice the highest frequency: alpha < 1/2 gives it back
@@ -147,7 +141,7 @@ def _alphas(beam: Beam, Omega: float, eta: float) -> np.ndarray:
     return np.arccos(z.real.clip(-1.0, 1.0)) * Omega / (2.0 * np.pi)
 
 
-@checks("control-and-sensor")
+@check_for("control-and-sensor")
 def control_and_sensor() -> Finding:
     """Frequencies over K_theta and over xi_G, as in Figures 3 and 4."""
     control = _spread([UniformBeam(T0=10.0, K_theta=K, xi_G=0.5) for K in (0.25, 0.5, 0.75, 1.0)])

@@ -2,9 +2,9 @@
 
 from functools import lru_cache
 
-from compare.report.claims.cases import GAMMA, PAIRS, resonances, uniform
-from compare.report.claims.finding import VISIBLE, Finding, Number, checks, graded
-from compare.report.claims.routes import Both, both
+from compare.report.claims.both_routes import Both, both
+from compare.report.claims.cases import GAMMA, resonances, uniform
+from compare.report.claims.finding import VISIBLE, Finding, Number, check_for, graded
 
 TERMS = 5
 """As many as the listing's S; with 12 no verdict of Table 3 is another (see the tests)."""
@@ -25,7 +25,7 @@ def _point(Omega: float, terms: int) -> Both:
 def _table() -> dict[str, tuple[Both, Both]]:
     """By resonance: without and with."""
     found = resonances(uniform())
-    return {name: (_point(found[name], 0), _point(found[name], TERMS)) for name, *_ in PAIRS}
+    return {name: (_point(found[name], 0), _point(found[name], TERMS)) for name in found}
 
 
 def _near(name: str, steps: tuple[float, ...]) -> Both:
@@ -40,7 +40,7 @@ def _changed(less: bool) -> list[str]:
     return [name for name, pair in pairs.items() if pair == (less, not less)]
 
 
-@checks("table-3")
+@check_for("table-3")
 def table_3() -> Finding:
     """Table 3 with C_s = s pi A_s."""
     numbers, ratios = [], []
@@ -62,7 +62,7 @@ def table_3() -> Finding:
     return Finding(tuple(numbers), verdict, because)
 
 
-@checks("stabilise")
+@check_for("stabilise")
 def stabilise() -> Finding:
     """Resonances that initial conditions stabilise, and where their regions have gone."""
     calmed = _changed(False)
@@ -83,11 +83,11 @@ def stabilise() -> Finding:
     return Finding(tuple(numbers), verdict, because)
 
 
-@checks("neglected")
+@check_for("neglected")
 def neglected() -> Finding:
     """Whether leaving initial conditions out is safe."""
     numbers, growth = [], []
-    for name in ("2 omega_(B)", "omega_(B) + omega_(1)", "2 omega_(1)", "2 omega_(2)"):
+    for name in ("2 omega_(B)", "omega_(1) + omega_(B)", "2 omega_(1)", "2 omega_(2)"):
         before, T = _table()[name][0], _near(name, AROUND)
         growth.append(T.hill / before.hill - 1.0)
         numbers.append(before.number(f"{name}: T without, at it", 4))

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from compare.output import check_writable, write_whole
-from compare.report.claims.run import Judged, count, judge
+from compare.report.claims.run import JudgedClaim, count, judge
 
 FORMATS = ("text", "md", "json")
 HEADING = """\
@@ -33,13 +33,13 @@ This page is generated: `python -m compare.report.claims.page`.
 PAGE = Path("docs/claims.md")
 
 
-def page(judged: Iterable[Judged] | None = None) -> str:
+def page(judged: Iterable[JudgedClaim] | None = None) -> str:
     """The whole page."""
     found = tuple(judge() if judged is None else judged)
     return f"{HEADING}\n{markdown(found)}"
 
 
-def markdown(judged: Iterable[Judged]) -> str:
+def markdown(judged: Iterable[JudgedClaim]) -> str:
     """A table of verdicts, and every claim with its numbers."""
     found = tuple(judged)
     lines = [" ".join(summary(found)), "", "| claim | section | verdict |", "| --- | --- | --- |"]
@@ -52,7 +52,7 @@ def markdown(judged: Iterable[Judged]) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _entry(one: Judged) -> list[str]:
+def _entry(one: JudgedClaim) -> list[str]:
     claim, finding = one.claim, one.finding
     lines = [f"## {claim.id}", "", f"**{finding.verdict.capitalize()}** ({claim.section}). "]
     lines[-1] += finding.because
@@ -64,7 +64,7 @@ def _entry(one: Judged) -> list[str]:
     return lines
 
 
-def summary(judged: Iterable[Judged]) -> tuple[str, str]:
+def summary(judged: Iterable[JudgedClaim]) -> tuple[str, str]:
     """Two lines that say what was found."""
     found = tuple(judged)
     counts = count(found)
@@ -77,7 +77,7 @@ def summary(judged: Iterable[Judged]) -> tuple[str, str]:
     )
 
 
-def as_json(shown: Iterable[Judged], judged: Iterable[Judged]) -> str:
+def as_json(shown: Iterable[JudgedClaim], judged: Iterable[JudgedClaim]) -> str:
     """Everything, every digit."""
     everything = tuple(judged)
     content = {
@@ -88,7 +88,7 @@ def as_json(shown: Iterable[Judged], judged: Iterable[Judged]) -> str:
     return json.dumps(content, indent=1, allow_nan=False) + "\n"
 
 
-def as_dict(one: Judged) -> dict[str, Any]:
+def as_dict(one: JudgedClaim) -> dict[str, Any]:
     """One claim with the names of the JSON."""
     numbers = [
         {"label": n.label, "hill": n.hill, "floquet": n.floquet, "digits": n.digits}

@@ -2,15 +2,16 @@
 
 import numpy as np
 
+from compare.report.claims.both_routes import severest
 from compare.report.claims.cases import beams, every_region, regions, resonances
-from compare.report.claims.finding import Finding, Number, checks, graded
-from compare.report.claims.routes import Beam, severest
+from compare.report.claims.finding import Finding, Number, check_for, graded
+from compare.report.one_route import Beam
 
 # Where the second-order region is looked for: nothing of T above .001 escapes these steps.
 SEARCH = np.linspace(-0.006, 0.006, 13)
 
 
-@checks("second-order")
+@check_for("second-order")
 def second_order() -> Finding:
     """Largest T near half of every first-order resonance that is unstable."""
     numbers, worse = [], []
@@ -20,7 +21,7 @@ def second_order() -> Finding:
             T = severest(beam, 0.5 * r.Omega + SEARCH)
             numbers.append(T.number(f"{kind}, half of {r.name}: largest T"))
             numbers.append(r.at_resonance.number(f"{kind}, {r.name}: T_x"))
-            if T.hill > r.T_x:
+            if T.hill > r.hill.T_x:
                 worse.append(f"{r.name} of the {kind} beam")
     count = len(numbers) // 2
     verdict = graded(not worse, 2 * len(worse) < count)
@@ -30,7 +31,7 @@ def second_order() -> Finding:
     return Finding(tuple(numbers), verdict, because)
 
 
-@checks("where")
+@check_for("where")
 def where() -> Finding:
     """Which first-order resonances are unstable, and whether anything is elsewhere."""
     numbers: list[Number] = []
@@ -45,7 +46,7 @@ def where() -> Finding:
         T = severest(beam, _elsewhere(beam))
         largest = max(largest, T.hill)
         numbers.append(T.number(f"{kind}: largest T outside the first-order regions"))
-    first = [r.T_x for _, r in every_region()]
+    first = [r.hill.T_x for _, r in every_region()]
     verdict = graded(not quiet and largest <= min(first), largest <= max(first))
     names = ", ".join(name for name, count in quiet.items() if count == len(beams()))
     because = (
@@ -61,5 +62,5 @@ def _elsewhere(beam: Beam) -> np.ndarray:
     points += [float(x) for x in np.arange(0.3, 6.0, 0.15)]
     found = regions(beam)
     return np.array(
-        [x for x in points if x > 0.25 and not any(r.low <= x <= r.high for r in found)]
+        [x for x in points if x > 0.25 and not any(r.hill.low <= x <= r.hill.high for r in found)]
     )

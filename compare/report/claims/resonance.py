@@ -2,10 +2,11 @@
 
 import numpy as np
 
+from compare.report.claims.both_routes import Boundary, both, boundary, by_both, edge, severest
 from compare.report.claims.cases import ETA, Region, regions, resonances, uniform
-from compare.report.claims.finding import VISIBLE, Finding, Number, checks, graded, share
-from compare.report.claims.quadrature import sine_alone
-from compare.report.claims.routes import both, boundary, edge, severest
+from compare.report.claims.finding import VISIBLE, Finding, Number, check_for, graded, share
+from compare.report.claims.out_of_phase import sine_alone
+from compare.report.one_route import RouteName
 from hill import UniformBeam
 
 OMEGA_L = 2.0
@@ -26,19 +27,23 @@ def _rigid() -> Region:
     return next(r for r in regions(uniform()) if r.name == "2 omega_(1)")
 
 
-def _lower(g: float) -> float:
+def _lower(g: float) -> Boundary:
     """Lower boundary of the region at 2 omega_(1)."""
     return edge(bar(g), _rigid().Omega, -STRIDE)
 
 
-def _upper(g: float) -> float:
+def _upper(g: float) -> Boundary:
     """Upper boundary: above 2 where there is a region, else below."""
     beam = bar(g)
     above = 2.0375
     return edge(beam, _rigid().Omega if both(beam, above).stable else above, STRIDE)
 
 
-@checks("gap")
+def _width(low: Boundary, high: Boundary, route: RouteName) -> float:
+    return float(getattr(high, route) - getattr(low, route))
+
+
+@check_for("gap")
 def gap() -> Finding:
     """Stability at Omega = 2, g = .04, in the report's equation and with the whole force."""
     beam = bar(0.04)
@@ -46,8 +51,7 @@ def gap() -> Finding:
     numbers = [at.number("T at Omega = 2, g = .04")]
     if at.stable:
         ends = [boundary(beam, far, 2.0) for far in (1.9625, 2.0375)]
-        numbers.append(Number("stable from", ends[0], ends[0], 3))
-        numbers.append(Number("stable to", ends[1], ends[1], 3))
+        numbers += [ends[0].number("stable from"), ends[1].number("stable to")]
     other = sine_alone(beam, 2.0)
     numbers.append(other.number("T at Omega = 2, the part in quadrature alone", 4))
     verdict = graded(at.stable and other.stable, at.stable)
@@ -58,7 +62,7 @@ def gap() -> Finding:
     return Finding(tuple(numbers), verdict, because)
 
 
-@checks("above-gap")
+@check_for("above-gap")
 def above_gap() -> Finding:
     """The region above Omega = 2 with g = .08."""
     Omegas = np.arange(2.0, 2.13, STRIDE)
@@ -77,22 +81,26 @@ def above_gap() -> Finding:
     return Finding(numbers, verdict, because)
 
 
-@checks("broad")
+@check_for("broad")
 def broad() -> Finding:
     """Width of the region at 2 omega_(1) with omega_L = 2."""
-    low, high, rigid = _lower(0.0), _upper(0.0), 2.0 * _rigid().radius
-    ratio = (high - low) / rigid
+    low, high = _lower(0.0), _upper(0.0)
+
+    def rigid(route: RouteName) -> float:
+        return 2.0 * _rigid().by(route).radius
+
     numbers = (
-        Number("from", low, low, 3),
-        Number("to", high, high, 3),
-        Number("width with omega_L infinite", rigid, rigid, 4),
-        Number("ratio", ratio, ratio, 0),
+        low.number("from"),
+        high.number("to"),
+        by_both("width with omega_L infinite", rigid, 4),
+        by_both("ratio", lambda route: _width(low, high, route) / rigid(route), 0),
     )
+    ratio = numbers[-1].hill
     verdict = graded(ratio >= BROAD, ratio > 1.0 + VISIBLE)
     return Finding(numbers, verdict, f"It is {ratio:.0f} times as wide as the rigid bar's.")
 
 
-@checks("at-four")
+@check_for("at-four")
 def at_four() -> Finding:
     """Instability about Omega = 4, twice omega_L, where the rigid bar has none."""
     points = (3.98, 4.02)
@@ -103,12 +111,12 @@ def at_four() -> Finding:
     numbers = (
         *(T.number(f"T at Omega = {x:g}") for x, T in zip(points, with_L, strict=True)),
         *(T.number(f"the same, rigid, {x:g}") for x, T in zip(points, without, strict=True)),
-        Number("from", ends[0], ends[0], 3),
-        Number("to", ends[1], ends[1], 3),
+        ends[0].number("from"),
+        ends[1].number("to"),
         Number("distance to the nearest first-order resonance", nearest, None, 2),
     )
     new = all(not T.stable for T in with_L) and all(T.stable for T in without)
-    verdict = graded(new and nearest > ends[1] - ends[0], new)
+    verdict = graded(new and nearest > _width(ends[0], ends[1], "hill"), new)
     because = (
         "Unstable on both sides of 4 = 2 omega_L, where the force is infinite and no first-order "
         "resonance is near."
@@ -116,7 +124,7 @@ def at_four() -> Finding:
     return Finding(numbers, verdict, because)
 
 
-@checks("at-four-damped")
+@check_for("at-four-damped")
 def at_four_damped() -> Finding:
     """The same with longitudinal damping."""
     Omegas = np.concatenate([np.arange(3.95, 4.06, 0.01), [4.0]])
@@ -135,7 +143,7 @@ def at_four_damped() -> Finding:
     return Finding(numbers, verdict, because)
 
 
-@checks("damping-far")
+@check_for("damping-far")
 def damping_far() -> Finding:
     """T_x at the other resonances with omega_L = 2, g = 0 and .08."""
     numbers, changes = [], []
@@ -153,17 +161,17 @@ def damping_far() -> Finding:
     return Finding(tuple(numbers), verdict, because)
 
 
-@checks("narrowed")
+@check_for("narrowed")
 def narrowed() -> Finding:
     """Width and severity of the region at 2 omega_(1) by g."""
     low = {g: _lower(g) for g in (0.0, 0.04, 0.08)}
     high = {g: _upper(g) for g in (0.0, 0.04, 0.08)}
-    width = {g: high[g] - low[g] for g in low}
+    width = {g: _width(low[g], high[g], "hill") for g in low}
     other = sine_alone(bar(0.08), 2.0)
     top = {g: severest(bar(g), np.arange(1.7375, 2.1, 0.0125)) for g in (0.04, 0.08)}
     numbers = (
-        *(Number(f"from, g = {g:g}", x, x, 3) for g, x in low.items()),
-        *(Number(f"to, g = {g:g}", x, x, 3) for g, x in high.items()),
+        *(x.number(f"from, g = {g:g}") for g, x in low.items()),
+        *(x.number(f"to, g = {g:g}") for g, x in high.items()),
         *(T.number(f"largest T, g = {g:g}") for g, T in top.items()),
         other.number("T at Omega = 2, g = .08, the part in quadrature alone", 4),
     )
@@ -179,7 +187,7 @@ def narrowed() -> Finding:
     return Finding(numbers, verdict, because)
 
 
-@checks("infinite-amplitude")
+@check_for("infinite-amplitude")
 def infinite_amplitude() -> Finding:
     """Largest T with g = .04."""
     T = severest(bar(0.04), np.arange(1.7375, 2.1, 0.0125))

@@ -50,7 +50,7 @@ class Claim:
 
 
 @dataclass(frozen=True)
-class Judged:
+class JudgedClaim:
     """A claim with what was found."""
 
     claim: Claim
@@ -94,8 +94,8 @@ def select(names: Iterable[str] | None = None) -> tuple[Claim, ...]:
 
 
 def judge(
-    names: Iterable[str] | None = None, *, progress: Callable[[Judged], Any] | None = None
-) -> tuple[Judged, ...]:
+    names: Iterable[str] | None = None, *, progress: Callable[[JudgedClaim], Any] | None = None
+) -> tuple[JudgedClaim, ...]:
     """Compute claims and judge them by their rules.
 
     Parameters
@@ -107,7 +107,7 @@ def judge(
 
     Returns
     -------
-    tuple of Judged
+    tuple of JudgedClaim
 
     Raises
     ------
@@ -118,13 +118,13 @@ def judge(
     """
     found = []
     for claim in select(names):
-        found.append(Judged(claim, check_of(claim.id)()))
+        found.append(JudgedClaim(claim, check_of(claim.id)()))
         if progress is not None:
             progress(found[-1])
     return tuple(found)
 
 
-def count(judged: Iterable[Judged]) -> dict[str, int]:
+def count(judged: Iterable[JudgedClaim]) -> dict[str, int]:
     """How many of each verdict."""
     verdicts = [one.finding.verdict for one in judged]
     return {verdict: verdicts.count(verdict) for verdict in VERDICTS}

@@ -1,11 +1,11 @@
 """What a step in area and inertia does, and how far two uniform modes carry (5.4 and 8.2)."""
 
+from compare.report.claims.both_routes import both, real_frequencies
 from compare.report.claims.cases import stepped, uniform
-from compare.report.claims.finding import VISIBLE, Finding, Number, checks, graded, share
-from compare.report.claims.routes import both, real_frequencies
+from compare.report.claims.finding import VISIBLE, Finding, Number, check_for, graded, share
 
 
-@checks("stepped-shifts")
+@check_for("stepped-shifts")
 def stepped_shifts() -> Finding:
     """What the step does to frequencies and regions."""
     plain = uniform(K_theta=1.0)
@@ -34,7 +34,7 @@ def stepped_shifts() -> Finding:
     return Finding(tuple(numbers), verdict, because)
 
 
-@checks("stepped-galerkin")
+@check_for("stepped-galerkin")
 def stepped_galerkin() -> Finding:
     """How far two uniform modes carry on a stepped beam."""
     two, twelve = (real_frequencies(stepped(modes=N)) for N in (2, 12))

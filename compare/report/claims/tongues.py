@@ -1,10 +1,13 @@
 """Shape, width and place of the regions of instability (sections 7.3 and 8.1.2)."""
 
+from functools import partial
+
 import numpy as np
 
+from compare.report.claims.both_routes import both, by_both, real_frequencies
 from compare.report.claims.cases import GAMMA, Region, beams, every_region, regions, uniform
-from compare.report.claims.finding import VISIBLE, Finding, Number, checks, graded, share
-from compare.report.claims.routes import both, real_frequencies
+from compare.report.claims.finding import VISIBLE, Finding, Number, check_for, graded, share
+from compare.report.one_route import RouteName
 from compare.report.tables import rows
 from hill import characteristic
 
@@ -12,18 +15,18 @@ from hill import characteristic
 RATIOS = (0.025, 0.1)
 
 
-@checks("half-circles")
+@check_for("half-circles")
 def half_circles() -> Finding:
     """T against Omega, held against the half circle between the boundaries."""
     found = every_region()
     numbers = []
     for kind, r in found:
         label = f"{kind}, {r.name}: T off a half circle, in radii"
-        numbers.append(Number(label, r.departure(), r.departure("floquet"), 3))
+        numbers.append(by_both(label, r.departure, 3))
         label = f"{kind}, {r.name}: its centre off, in radii"
-        numbers.append(Number(label, r.offset, r.offset, 2))
-    shape = max(r.departure() for _, r in found)
-    off = [abs(r.offset) for _, r in found]
+        numbers.append(by_both(label, partial(_offset, r), 2))
+    shape = max(r.departure("hill") for _, r in found)
+    off = [abs(r.hill.offset) for _, r in found]
     verdict = graded(shape <= VISIBLE and max(off) <= VISIBLE, shape <= VISIBLE)
     because = (
         f"All {len(found)} regions are half circles to {share(shape)} of their radius, as "
@@ -34,24 +37,25 @@ def half_circles() -> Finding:
     return Finding(tuple(numbers), verdict, because)
 
 
-@checks("exception-at-2B")
+@check_for("exception-at-2B")
 def exception() -> Finding:
     """The region of 2 omega_(B) in Table 1, converged and cut off."""
     beam = uniform()
     region = next(r for r in regions(beam) if r.name == "2 omega_(B)")
     omega_B, omega_1, _ = real_frequencies(beam)
+    own = region.hill
     inner = (2.0 * omega_1 / 5.0, (omega_B + omega_1) / 3.0)
-    printed = [row.Omega for row in rows(1) if row.Omega < region.high]
-    points = np.concatenate([np.linspace(region.low, region.high, 21)[1:-1], inner, printed])
+    printed = [row.Omega for row in rows(1) if row.Omega < own.high]
+    points = np.concatenate([np.linspace(own.low, own.high, 21)[1:-1], inner, printed])
     outside, T_cut, off_cut, outside_cut = 0, [], [], 0
     for Omega in points:
         outside = max(outside, _outside(both(beam, float(Omega)).z))
         cut = characteristic(beam.equation(float(Omega), GAMMA), truncation="report")
         outside_cut = max(outside_cut, _outside(cut.z))
         T_cut.append(cut.T)
-        off_cut.append(abs(np.hypot(cut.T, Omega - region.centre) / region.radius - 1.0))
+        off_cut.append(abs(np.hypot(cut.T, Omega - own.centre) / own.radius - 1.0))
     numbers = (
-        Number("T off a half circle, in radii", region.departure(), region.departure("floquet"), 3),
+        by_both("T off a half circle, in radii", region.departure, 3),
         Number("the same, the report's truncation", max(off_cut), None, 1),
         Number("largest T", region.peak.hill, region.peak.floquet, 5),
         Number("the same, the report's truncation", max(T_cut), None, 4),
@@ -61,7 +65,7 @@ def exception() -> Finding:
         Number("(omega_(B) + omega_(1))/3, inside it too", inner[1], None, 4),
         both(beam, 0.3975).number("T at .3975, printed .02834 at .398"),
     )
-    clean = region.departure() <= VISIBLE and outside <= 1
+    clean = region.departure("hill") <= VISIBLE and outside <= 1
     artefact = max(off_cut) > VISIBLE
     verdict = graded(outside > 1, not (clean and artefact))
     because = (
@@ -77,14 +81,14 @@ def _outside(z: np.ndarray) -> int:
     return int(np.sum((np.abs(z.imag) > 1e-7) | (np.abs(z.real) > 1.0 + 1e-7)))
 
 
-@checks("boundary-rule")
+@check_for("boundary-rule")
 def boundary_rule() -> Finding:
     """Boundaries against resonance +- T_x, Eq. (7.3.1)."""
     numbers, misses = [], []
     for kind, r in every_region():
-        ends = (r.low - (r.Omega - r.T_x), r.high - (r.Omega + r.T_x))
-        misses.append(max(abs(end) for end in ends) / r.T_x)
-        numbers.append(Number(f"{kind}, {r.name}: miss over T_x", misses[-1], misses[-1], 3))
+        miss = by_both(f"{kind}, {r.name}: miss over T_x", partial(_miss, r), 3)
+        numbers.append(miss)
+        misses.append(miss.hill)
     near = sum(miss <= VISIBLE for miss in misses)
     verdict = graded(near == len(misses), 2 * near >= len(misses))
     because = (
@@ -94,15 +98,26 @@ def boundary_rule() -> Finding:
     return Finding(tuple(numbers), verdict, because)
 
 
-@checks("linear-boundaries")
+def _offset(region: Region, route: RouteName) -> float:
+    return region.by(route).offset
+
+
+def _miss(region: Region, route: RouteName) -> float:
+    """The larger miss of the two boundaries, over T_x."""
+    r = region.by(route)
+    ends = (r.low - (r.Omega - r.T_x), r.high - (r.Omega + r.T_x))
+    return max(abs(end) for end in ends) / r.T_x
+
+
+@check_for("linear-boundaries")
 def linear_boundaries() -> Finding:
     """(Omega_b - Omega_0)/gamma, which would be constant."""
     numbers, bends = [], []
     for kind, name, series in _by_ratio():
-        slopes = np.array([[r.low - r.Omega, r.high - r.Omega] for r in series])
-        slopes /= np.array(RATIOS)[:, None]
-        bends.append(float(np.max(np.ptp(slopes, axis=0) / np.abs(slopes).min(axis=0))))
-        numbers.append(Number(f"{kind}, {name}: change of slope", bends[-1], bends[-1], 3))
+        label = f"{kind}, {name}: change of slope"
+        bend = by_both(label, partial(_change_of_slope, series), 3)
+        numbers.append(bend)
+        bends.append(bend.hill)
     straight = sum(bend <= VISIBLE for bend in bends)
     verdict = graded(straight == len(bends), 2 * straight >= len(bends))
     because = (
@@ -113,19 +128,31 @@ def linear_boundaries() -> Finding:
     return Finding(tuple(numbers), verdict, because)
 
 
-@checks("linear-width")
+def _change_of_slope(series: list[Region], route: RouteName) -> float:
+    extents = [r.by(route) for r in series]
+    slopes = np.array([[r.low - r.Omega, r.high - r.Omega] for r in extents])
+    slopes /= np.array(RATIOS)[:, None]
+    return float(np.max(np.ptp(slopes, axis=0) / np.abs(slopes).min(axis=0)))
+
+
+@check_for("linear-width")
 def linear_width() -> Finding:
     """Width over gamma, which would be constant."""
     numbers, bends = [], []
     for kind, name, series in _by_ratio():
-        widths = np.array([2.0 * r.radius for r in series]) / np.array(RATIOS)
-        bends.append(float(np.ptp(widths) / widths.min()))
         label = f"{kind}, {name}: change of width/gamma"
-        numbers.append(Number(label, bends[-1], bends[-1], 3))
+        bend = by_both(label, partial(_change_of_width, series), 3)
+        numbers.append(bend)
+        bends.append(bend.hill)
     worst = max(bends)
     verdict = graded(worst <= VISIBLE, float(np.median(bends)) <= VISIBLE)
     because = f"From gamma = .025 to .1 width/gamma changes by {share(worst)} at most."
     return Finding(tuple(numbers), verdict, because)
+
+
+def _change_of_width(series: list[Region], route: RouteName) -> float:
+    widths = np.array([2.0 * r.by(route).radius for r in series]) / np.array(RATIOS)
+    return float(np.ptp(widths) / widths.min())
 
 
 def _by_ratio() -> list[tuple[str, str, list[Region]]]:
@@ -137,12 +164,12 @@ def _by_ratio() -> list[tuple[str, str, list[Region]]]:
     return found
 
 
-@checks("largest-at-resonance")
+@check_for("largest-at-resonance")
 def largest_at_resonance() -> Finding:
     """T_x against the largest T of its region."""
     numbers, excess = [], []
     for kind, r in every_region():
-        excess.append(r.peak.hill / r.T_x - 1.0)
+        excess.append(r.peak.hill / r.hill.T_x - 1.0)
         numbers.append(r.peak.number(f"{kind}, {r.name}: largest T"))
         numbers.append(r.at_resonance.number(f"{kind}, {r.name}: T_x"))
     verdict = graded(max(excess) <= VISIBLE, float(np.median(excess)) <= VISIBLE)

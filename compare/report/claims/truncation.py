@@ -3,9 +3,9 @@
 from dataclasses import dataclass
 from functools import lru_cache
 
+from compare.report.claims.both_routes import both
 from compare.report.claims.cases import GAMMA
-from compare.report.claims.finding import PRINTED, Finding, Number, checks, graded
-from compare.report.claims.routes import both
+from compare.report.claims.finding import PRINTED, Finding, Number, check_for, graded
 from compare.report.match import distance
 from compare.report.tables import rows
 from hill import characteristic
@@ -44,7 +44,7 @@ def _misses() -> tuple[_Miss, ...]:
     return tuple(found)
 
 
-@checks("sufficient")
+@check_for("sufficient")
 def sufficient() -> Finding:
     """Digits and verdicts lost to the report's M."""
     misses = _misses()
@@ -71,7 +71,7 @@ def _count_z(misses: tuple[_Miss, ...]) -> int:
     return sum(m.z > PRINTED_Z for m in misses)
 
 
-@checks("small-frequencies")
+@check_for("small-frequencies")
 def small_frequencies() -> Finding:
     """The same below and above Omega = 1."""
     below = [m for m in _misses() if m.Omega < 1.0]

@@ -7,10 +7,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from compare.report.figures.catalogue import GAMMA, Figure
-from compare.report.figures.one_route import Beam, RouteName, family
+from compare.report.one_route import Beam, RouteName, family
 from compare.report.tables import Row, rows
 from compare.tongues.boundaries import Family
-from hill import HillEquation, SteppedBeam, UniformBeam
+from hill import SteppedBeam, UniformBeam
 from hill.averaging import Resonance, first_order, modal
 
 # In the stepped beam's Omega this one and 2 omega_(B) come near each other and repel (T0 = 9, 16).
@@ -45,9 +45,9 @@ def same(one: str, other: str) -> bool:
     return one == other or ("+" in one and one.split(" + ") == other.split(" + ")[::-1])
 
 
-def at_resonance(name: str, equation: HillEquation) -> float:
+def at_resonance(name: str, beam: Beam) -> float:
     """Omega of a resonance."""
-    return resonance_named(name).Omega(modal(equation)[0])
+    return resonance_named(name).Omega(modal(beam.equation(1.0, 0.0))[0])
 
 
 def printed(figure: Figure) -> list[Row]:

@@ -4,12 +4,12 @@ from functools import partial
 
 import numpy as np
 
-from compare.report.figures.beams import beam_of, inner, printed, resonance_named, same, spread
+from compare.report.figures.beams import at_resonance, beam_of, inner, printed, same, spread
 from compare.report.figures.catalogue import GAMMA, ORDER, Figure
 from compare.report.figures.data import FigureData, Float, Series, largest
-from compare.report.figures.one_route import RouteName, T_of, equation, solve
 from compare.report.figures.sampling import adaptive
-from hill.averaging import modal
+from compare.report.one_route import RouteName, T_of, equation, integral_of_force, solve
+from hill import UniformBeam
 
 # The top of Figure 26. Marks keep below it: where P spans twenty powers of ten, Hill's route says
 # that it cannot tell.
@@ -25,7 +25,7 @@ def of_longitudinal_frequency(figure: Figure, detail: float = 1.0) -> FigureData
     series: list[Series] = []
     differences = []
     for name in ORDER:
-        Omega = resonance_named(name).Omega(modal(beam_of(figure).equation(1.0, 0.0))[0])
+        Omega = at_resonance(name, beam_of(figure))
 
         def T_x(route: RouteName, omega_L: Float, Omega: float = Omega) -> Float:
             beams = [beam_of(figure, omega_L=float(x)) for x in omega_L]
@@ -75,15 +75,7 @@ def integral(figure: Figure, detail: float = 1.0) -> FigureData:
 
 
 def _phi(figure: Figure, route: RouteName, sigma: Float, g: float) -> Float:
-    """G_(N+1,N+1) is 12 T0/lambda_1^4 times (1 + K_theta)/2 less the integral (4.5.26).
-
-    Two values of K_theta give the factor, and with it the integral, without another formula.
-    """
-    values = []
-    for x in sigma:
-        G = [
-            equation(route, beam_of(figure, K_theta=K, omega_L=1.0, g=g), float(x), 0.0).G[-1, -1]
-            for K in (0.0, 1.0)
-        ]
-        values.append(0.5 - 0.5 * G[0] / (G[1] - G[0]))
-    return np.array(values)
+    """Re of the integral by one route, bar and forcing at omega_L = 1."""
+    beam = beam_of(figure, omega_L=1.0, g=g)
+    assert isinstance(beam, UniformBeam)
+    return np.array([integral_of_force(route, beam, float(x)).real for x in sigma])

@@ -7,12 +7,12 @@ from compare.report.figures.compliance import integral, of_longitudinal_frequenc
 from compare.report.figures.coupled import coupled
 from compare.report.figures.critical import critical
 from compare.report.figures.data import FigureData
-from compare.report.figures.frequencies import natural_frequencies
+from compare.report.figures.frequencies import frequencies
 from compare.report.figures.growth import near_longitudinal_resonance, near_resonances
 from compare.report.figures.regions import regions
 
 KINDS: dict[str, Callable[[Figure, float], FigureData]] = {
-    "frequencies": natural_frequencies,
+    "frequencies": frequencies,
     "growth": near_resonances,
     "regions": regions,
     "critical": critical,

@@ -4,13 +4,12 @@ from collections.abc import Callable
 
 import numpy as np
 
-from compare.report.figures.beams import beam_of, inner, printed, resonance_named, same, spread
+from compare.report.figures.beams import at_resonance, beam_of, inner, printed, same, spread
 from compare.report.figures.catalogue import GAMMA, Figure
 from compare.report.figures.data import FigureData, Float, Series, largest
-from compare.report.figures.one_route import RouteName, T_of, equation, solve
 from compare.report.figures.regions import FINEST
+from compare.report.one_route import RouteName, T_of, equation, solve
 from compare.stability.indicators import Function, crossings, interpolate, zero
-from hill.averaging import modal
 
 TOP, BOTTOM = "T_x", "critical"
 # Grid of gamma on which the first unstable one is looked for.
@@ -47,8 +46,7 @@ def critical(figure: Figure, detail: float = 1.0) -> FigureData:
 
 
 def _resonance(figure: Figure, T0: float) -> float:
-    beam = beam_of(figure, T0=T0)
-    return resonance_named(figure.resonance).Omega(modal(beam.equation(1.0, 0.0))[0])
+    return at_resonance(figure.resonance, beam_of(figure, T0=T0))
 
 
 def _along_gamma(

@@ -5,14 +5,22 @@ from itertools import pairwise
 
 import numpy as np
 
-from compare.report.figures.beams import beam_of, inner, nearest, printed, resonance_named, spread
+from compare.report.figures.beams import (
+    at_resonance,
+    beam_of,
+    inner,
+    nearest,
+    printed,
+    resonance_named,
+    spread,
+)
 from compare.report.figures.catalogue import GAMMA, ORDER, Figure
 from compare.report.figures.data import FigureData, Float, Series, largest
-from compare.report.figures.one_route import Beam, RouteName, T_of, equation, solve
 from compare.report.figures.sampling import adaptive
+from compare.report.one_route import Beam, RouteName, T_of, equation, solve
 from compare.report.tables import Row, number
 from compare.stability.indicators import Function, crossings, interpolate_in_Omega
-from hill.averaging import half_width, modal
+from hill.averaging import half_width
 
 # T below this is zero: z at the edge of a tongue is known to 1e-14, and T like its square root.
 NOTHING = 1e-6
@@ -27,9 +35,7 @@ HIGHEST, CLOSEST = 0.5, 0.01
 def near_resonances(figure: Figure, detail: float = 1.0) -> FigureData:
     """Figures 8 and 17: curves from Hill's determinant, marks from the monodromy matrix."""
     beam = beam_of(figure)
-    centres = {
-        name: resonance_named(name).Omega(modal(beam.equation(1.0, 0.0))[0]) for name in ORDER
-    }
+    centres = {name: at_resonance(name, beam) for name in ORDER}
     series: list[Series] = []
     differences = []
     for name, centre in centres.items():

@@ -32,7 +32,7 @@ class Place(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Judged:
+class LineComparison:
     """One line, printed and computed; None where there is no such line.
 
     `state` is "same"; "order", where it is the same once the roots stand in the same order;
@@ -86,14 +86,14 @@ def printed_output(program: str) -> list[str]:
     return (DATA / f"listing_{program}.txt").read_text().splitlines()
 
 
-def collate(printed: Sequence[str], computed: Sequence[str]) -> list[Judged]:
+def collate(printed: Sequence[str], computed: Sequence[str]) -> list[LineComparison]:
     """Every line of either, in the order of print."""
     there, here = dict(_placed(printed)), dict(_placed(computed))
     judged = []
     for place in [*there, *(p for p in here if p not in there)]:
         was, now = there.get(place), here.get(place)
         if was is None or now is None:
-            judged.append(Judged(place, was, now, "differs"))
+            judged.append(LineComparison(place, was, now, "differs"))
             continue
         state = compare(was, now)
         if state != "same" and place.line in ROOTS:
@@ -103,7 +103,7 @@ def collate(printed: Sequence[str], computed: Sequence[str]) -> list[Judged]:
             again = compare(was, ordered)
             if again != "differs" and state == "differs":
                 state, now = ("order" if again == "same" else again), ordered
-        judged.append(Judged(place, was, now, state))
+        judged.append(LineComparison(place, was, now, state))
     return judged
 
 

@@ -1,10 +1,11 @@
-"""One route at a time, as the figures use it: many points, no error bounds, no second run.
+"""One route at a time: many points, no error bounds, no second run.
 
-Bounds are the business of the tables; a figure shows curves by one route and marks by the other.
+Bounds are the business of the tables. A figure shows curves by one route and marks by the other;
+where a claim has a boundary, each route finds it.
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache, partial
 from typing import Any, Literal
 
@@ -13,13 +14,17 @@ from numpy.typing import NDArray
 
 from compare.stability import indicators
 from compare.tongues.boundaries import Family
+from floquet import weak_form
 from floquet.unchecked import unchecked_growth, unchecked_polynomials
 from floquet.weak_form import galerkin
-from hill import HillEquation, SteppedBeam, UniformBeam, characteristic
+from hill import HillEquation, SteppedBeam, UniformBeam, axial_force, characteristic
 
 Beam = UniformBeam | SteppedBeam
 RouteName = Literal["hill", "floquet"]
 Float = NDArray[np.floating[Any]]
+Complex = NDArray[np.complexfloating[Any, Any]]
+
+ROUTES: tuple[RouteName, RouteName] = ("hill", "floquet")
 
 
 @dataclass(frozen=True)
@@ -55,6 +60,26 @@ def equation(
         return (beam.equation if route == "hill" else partial(galerkin, beam))(Omega, gamma, eta)
     rigid = _rigid(route, beam)
     return HillEquation(F=rigid.F, G=rigid.G, gamma=gamma, Omega=Omega, eta=eta)
+
+
+def out_of_phase(route: RouteName, beam: UniformBeam, Omega: float) -> Float:
+    """What a damped bar's force adds to G a quarter of a period behind the thrust."""
+    return (axial_force if route == "hill" else weak_form).out_of_phase(beam, Omega)
+
+
+def integral_of_force(route: RouteName, beam: UniformBeam, Omega: float) -> complex:
+    """Integral of Phi* over the beam (4.5.26), out of the route's matrices.
+
+    G_(N+1,N+1) is 12 T0/lambda_1^4 times (1 + K_theta)/2 less the integral. Two values of K_theta
+    give the factor, and with it the integral, without another formula.
+    """
+    bare, held = (
+        equation(route, replace(beam, K_theta=K), Omega, 0.0).G[-1, -1] for K in (0.0, 1.0)
+    )
+    real = 0.5 - 0.5 * bare / (held - bare)
+    if beam.g == 0.0:
+        return complex(real)
+    return complex(real, -0.5 * out_of_phase(route, beam, Omega)[-1, -1] / (held - bare))
 
 
 def solve(route: RouteName, equations: Sequence[HillEquation]) -> Float:

@@ -1,0 +1,28 @@
+"""The part of a damped bar's axial force that the report's equation leaves out.
+
+The report asks for the real portion of a motion that goes like exp(i Omega t) (4.2.34) and takes
+Re Phi* cos(Omega t) (4.2.39). The real portion is Re Phi* cos(Omega t) - Im Phi* sin(Omega t): at a
+longitudinal resonance the first part passes through zero and the second is nearly the whole force.
+
+Neither route takes a cosine and a sine together, which are not even in time. The sine alone is a
+cosine a quarter of a period later, and both routes take that. Both parts together are integrated in
+``tests/test_claims.py``: unstable at every point that the claims rest on.
+"""
+
+from functools import lru_cache
+
+from compare.report.claims.both_routes import Both, solve_both
+from compare.report.one_route import ROUTES, equation, out_of_phase
+from hill import HillEquation, UniformBeam
+
+
+@lru_cache(maxsize=64)
+def sine_alone(beam: UniformBeam, Omega: float, gamma: float = 0.1) -> Both:
+    """T with nothing but the part of the pulsating force in quadrature with the thrust."""
+    closed, summed = (
+        HillEquation(
+            equation(route, beam, Omega, gamma).F, out_of_phase(route, beam, Omega), gamma, Omega
+        )
+        for route in ROUTES
+    )
+    return solve_both(closed, summed, f"Im Phi* alone of {beam}")
