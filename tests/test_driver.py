@@ -10,18 +10,18 @@ import numpy as np
 import pytest
 
 from compare.__main__ import main
-from compare.report.program.cards import read_deck
+from compare.report.program.cards import Cards, shipped
 from compare.report.program.collate import (
     KINDS,
     NUMBER,
     Difference,
     LineComparison,
     collate,
-    compare,
+    compare_lines,
     differences,
     printed_output,
 )
-from compare.report.program.deck import Cards, shipped
+from compare.report.program.deck import read_deck
 from compare.report.program.driver import (
     Evaluation,
     FrequencyLine,
@@ -31,9 +31,9 @@ from compare.report.program.driver import (
     TableHeading,
     events,
 )
-from compare.report.program.evaluators import ROUTES, as_run, beam
+from compare.report.program.evaluators import EVALUATORS, as_run, beam
 from compare.report.program.formats import F, lines
-from compare.report.program.listing import MOST_STEPS, NoBoundary, Stab, search
+from compare.report.program.listing import MAX_STEPS, NoBoundary, Stab, search
 from compare.report.program.muller import in_order
 from floquet import monodromy
 from floquet.weak_form import galerkin
@@ -71,7 +71,7 @@ def single(program: str, itr: int, nat: int, **more: str) -> Cards:
 
 
 def run(deck: Cards, program: str, route: str = "as-run") -> list[object]:
-    return list(events(read_deck(deck, program), ROUTES[route]))
+    return list(events(read_deck(deck, program), EVALUATORS[route]))
 
 
 def text(found: list[object]) -> list[str]:
@@ -147,11 +147,11 @@ def test_listed_difference(listed: Difference) -> None:
     assert listed.kind in KINDS
     assert len(listed.cause) > 20
     assert found.printed == listed.printed
-    assert compare(listed.printed, listed.computed) == "differs"
+    assert compare_lines(listed.printed, listed.computed) == "differs"
     assert found.computed is not None
-    assert compare(listed.computed, found.computed) in ("same", "unit")
+    assert compare_lines(listed.computed, found.computed) in ("same", "unit")
     if listed.kind in ("scan", "lost"):
-        assert compare(listed.corrected, found.computed) in ("same", "unit")
+        assert compare_lines(listed.corrected, found.computed) in ("same", "unit")
     else:
         assert not listed.corrected or listed.corrected.split()[-1] == ".05697"
 
@@ -278,7 +278,7 @@ def test_loops_of_the_stepped_program_go_down() -> None:
         ({"c13": three("4.", "8.", "4.")}, ["               4.0   ", "               8.0   "]),
     ],
 )
-@pytest.mark.parametrize("route", list(ROUTES))
+@pytest.mark.parametrize("route", list(EVALUATORS))
 def test_other_decks_run(changes: dict[str, str], shown: list[str], route: str) -> None:
     found = run(single("uniform", 0, 0, **changes), "uniform", route)
     written = text(found)
@@ -337,7 +337,7 @@ def test_a_malformed_card_is_named(
     assert "\n" not in str(error.value)
 
 
-@pytest.mark.parametrize("route", list(ROUTES))
+@pytest.mark.parametrize("route", list(EVALUATORS))
 @pytest.mark.parametrize(("program", "card"), [("uniform", "c11"), ("stepped", "c39")])
 def test_without_control(program: str, card: str, route: str) -> None:
     """SPC = 0: two natural frequencies; STAB has no three roots to find."""
@@ -379,10 +379,10 @@ def test_initial_conditions_with_a_common_period() -> None:
     )[0]
     OMEGB = 1.8180
     case = replace(case, OMEGL=3.636)
-    found = [ROUTES[name].stab(None, case, OMEGB) for name in ("hill", "floquet")]
+    found = [EVALUATORS[name].stab(None, case, OMEGB) for name in ("hill", "floquet")]
     # both errors are below 1e-10 here; T is the root of a small difference
     assert pytest.approx(found[1].STAB1, abs=1e-7) == found[0].STAB1
-    without = ROUTES["hill"].stab(None, replace(case, Q=0), OMEGB)
+    without = EVALUATORS["hill"].stab(None, replace(case, Q=0), OMEGB)
     assert abs(found[0].STAB1 - without.STAB1) > 1e-3
 
 
@@ -396,7 +396,7 @@ def test_a_search_without_boundary_is_given_up(OMEGB: float) -> None:
     with pytest.raises(NoBoundary, match=f"no boundary of the instability at OMEGB = {OMEGB:.3f}"):
         list(search(unstable, OMEGB, 0.0))
     assert min(visited) > 0.0
-    assert len(visited) <= MOST_STEPS + 1
+    assert len(visited) <= MAX_STEPS + 1
 
 
 # ---- the routes ----------------------------------------------------------------------------------
@@ -427,7 +427,7 @@ def test_truncation_shows_near_twice_the_lowest_frequency(program: str) -> None:
         name: next(
             e for e in run(single(program, 0, 0), program, name) if isinstance(e, Evaluation)
         )
-        for name in ROUTES
+        for name in EVALUATORS
     }
     T = {name: e.STAB1 for name, e in first.items()}
     expected = {"uniform": (0.03994, 0.01802), "stepped": (0.04109, 0.04255)}[program]

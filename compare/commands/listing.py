@@ -7,19 +7,19 @@ from pathlib import Path
 
 from compare.commands.terminal import progress
 from compare.output import check_writable, write_whole
-from compare.report.program.cards import Deck, read_deck
+from compare.report.program.cards import Cards, from_file, shipped
 from compare.report.program.collate import (
     Difference,
     LineComparison,
     State,
     collate,
-    compare,
+    compare_lines,
     differences,
     printed_output,
 )
-from compare.report.program.deck import Cards, from_file, shipped
+from compare.report.program.deck import Deck, read_deck
 from compare.report.program.driver import FrequencyLine, Note, ResonanceHeading, blocks, events
-from compare.report.program.evaluators import ROUTES, Route
+from compare.report.program.evaluators import EVALUATORS, Evaluator
 from compare.report.program.formats import lines
 
 SUMMARY = "read a data deck of the report's programs and print what they print"
@@ -56,7 +56,7 @@ def configure(p: argparse.ArgumentParser) -> None:
     p.add_argument("program", choices=("uniform", "stepped"), help="which of the two programs")
     p.add_argument("--deck", type=Path, metavar="FILE", help="data cards (default: the report's)")
     p.add_argument(
-        "--route", choices=tuple(ROUTES), default="as-run", help="who computes (default as-run)"
+        "--route", choices=tuple(EVALUATORS), default="as-run", help="who computes (default as-run)"
     )
     p.add_argument(
         "--compare", action="store_true", help="print what differs from the report's output instead"
@@ -72,7 +72,7 @@ def run(options: argparse.Namespace) -> int:
     deck = read_deck(cards, options.program)
     if options.output is not None:
         check_writable(options.output)
-    written, failed = regenerate(deck, ROUTES[options.route])
+    written, failed = regenerate(deck, EVALUATORS[options.route])
     status = 1 if failed else 0
     if options.compare:
         judged = collate(printed_output(deck.program), written)
@@ -89,11 +89,11 @@ def run(options: argparse.Namespace) -> int:
     return status
 
 
-def regenerate(deck: Deck, route: Route) -> tuple[list[str], int]:
+def regenerate(deck: Deck, evaluator: Evaluator) -> tuple[list[str], int]:
     """The whole output, and how many resonances could not be computed; with a bar meanwhile."""
     written, failed = [], 0
     with progress("blocks", blocks(deck)) as advance:
-        for event in events(deck, route):
+        for event in events(deck, evaluator):
             written += lines(event)
             failed += isinstance(event, Note) and event.failed
             if isinstance(event, FrequencyLine | ResonanceHeading):
@@ -127,7 +127,7 @@ def _as_listed(listed: Difference, found: LineComparison) -> bool:
     return (
         listed.printed == found.printed
         and found.computed is not None
-        and compare(listed.computed, found.computed) != "differs"
+        and compare_lines(listed.computed, found.computed) != "differs"
     )
 
 

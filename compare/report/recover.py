@@ -10,13 +10,13 @@ labelled as a resonance is left there and any other gets the best fit within the
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
-from itertools import combinations
 
 import numpy as np
 from scipy.optimize import minimize_scalar
 
 from compare.report.match import distance
 from compare.report.program.deck import constants
+from compare.report.program.driver import places
 from compare.report.program.listing import Case, Stepped, Uniform, frequencies, stab, switch
 from compare.report.tables import DATA, TABLES, Row, corrected, rows
 
@@ -38,11 +38,10 @@ Program = Uniform | Stepped
 
 def resonances(deck: Program, case: Case) -> dict[str, float]:
     """2 omega_i, omega_i + omega_j and omega_j - omega_i in the order of DRIVER."""
-    named = dict(zip(NAMES, frequencies(deck, case), strict=True))
-    found = {f"2 {name}": 2.0 * f for name, f in named.items()}
-    for sign, word in ((1.0, "+"), (-1.0, "-")):
-        for (low, f), (high, g) in combinations(named.items(), 2):
-            found[f"{high} {word} {low}"] = g + sign * f
+    found = {}
+    for sign, high, low, Omega in places(tuple(frequencies(deck, case))):
+        last = NAMES[high - 1]
+        found[f"2 {last}" if sign == "2" else f"{last} {sign} {NAMES[low - 1]}"] = Omega
     return found
 
 

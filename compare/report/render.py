@@ -12,8 +12,10 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from compare.report.row import TERMS, Outcome, Route
+from compare.report.row import TERMS, Outcome
 from compare.report.run import Report
+from floquet import Monodromy
+from hill import Characteristic
 
 SHOWN = ("all", "differs", "flips", "fail")
 FORMATS = ("text", "json", "md", "csv")
@@ -181,7 +183,7 @@ def as_dict(outcome: Outcome) -> dict[str, Any]:
     return record
 
 
-def _route(route: Route) -> dict[str, Any]:
+def _route(route: Characteristic | Monodromy) -> dict[str, Any]:
     return {
         "T": route.T,
         "T_error": _finite(route.T_error),

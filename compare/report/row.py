@@ -13,8 +13,9 @@ from compare.report.program.deck import constants
 from compare.report.program.listing import stab
 from compare.report.recover import HALF_UNIT, T_AS_RUN, Z_AS_RUN
 from compare.report.tables import Row, corrected
+from floquet import Monodromy
 from floquet.weak_form import galerkin
-from hill import HillEquation, characteristic
+from hill import Characteristic, HillEquation, characteristic
 from hill.determinant.residues import as_the_report
 from hill.stability import Verdict
 
@@ -37,27 +38,6 @@ T_REPORT = 1.5e-4
 
 
 @dataclass(frozen=True, eq=False)
-class Route:
-    """What one route finds: T with its error, z, P and the error of P's coefficients.
-
-    `error` is for the matrices as rounded, `data_error` what their rounding may add for the beam.
-    """
-
-    T: float
-    T_error: float
-    z: Complex
-    polynomial: NDArray[np.floating[Any]]
-    error: float
-    data_error: float
-    verdict: Verdict
-
-    @property
-    def stable(self) -> bool:
-        """Whether this route shows the row to be stable."""
-        return self.verdict == "stable"
-
-
-@dataclass(frozen=True, eq=False)
 class Outcome:
     """A row and everything found about it; what renderers print.
 
@@ -66,7 +46,8 @@ class Outcome:
     row : Row
     as_run_T, as_run_z
         The report's program at the recovered Omega: its truncation, its slips.
-    hill, floquet : Route
+    hill : Characteristic
+    floquet : Monodromy
         The two routes, converged.
     difference : float
         Largest difference between the coefficients of the two P(z).
@@ -90,8 +71,8 @@ class Outcome:
     modes: int
     as_run_T: float
     as_run_z: Complex
-    hill: Route
-    floquet: Route
+    hill: Characteristic
+    floquet: Monodromy
     difference: float
     matrices: float
     routes_agree: bool
@@ -121,19 +102,16 @@ def check(row: Row, *, method: Method = "taylor", modes: int = 2) -> Outcome:
     as_run = stab(constants(row.run["beam"]), row.case, row.Omega)
     closed, quadrature = equation(row, modes), witness(row, modes)
     x = compare_routes(closed, quadrature, method=method)
-    h, f = x.hill, x.floquet
-    hill = Route(h.T, h.T_error, h.z, h.polynomial, h.error, h.data_error, h.verdict)
-    floquet = Route(f.T, f.T_error, f.z, f.polynomial, f.error, f.data_error, f.verdict)
-    own = closed if modes == 2 else equation(row, 2)
-    judged = h if modes == 2 else characteristic(own)
-    cause, note = _cause(row, own, (judged.T, judged.z), (as_run.STAB1, as_run.roots))
+    of_two_modes = closed if modes == 2 else equation(row, 2)
+    judged = x.hill if modes == 2 else characteristic(of_two_modes)
+    cause, note = _cause(row, of_two_modes, (judged.T, judged.z), (as_run.STAB1, as_run.roots))
     return Outcome(
         row=row,
         modes=modes,
         as_run_T=as_run.STAB1,
         as_run_z=as_run.roots,
-        hill=hill,
-        floquet=floquet,
+        hill=x.hill,
+        floquet=x.floquet,
         difference=x.difference,
         matrices=x.matrices,
         routes_agree=x.routes_agree,
@@ -159,22 +137,22 @@ def _damping(row: Row) -> dict[str, Any]:
     return {"eta": row.run["eta"], "initial_terms": TERMS if row.initial_conditions else 0}
 
 
-def _cause(row: Row, own: HillEquation, converged: Found, as_run: Found) -> tuple[Cause, str]:
+def _cause(row: Row, eq: HillEquation, converged: Found, as_run: Found) -> tuple[Cause, str]:
     """The first explanation that brings the printed numbers back, from the simplest on."""
-    mended = corrected(row)
-    if _returns(row, converged):
-        lost = not _returns(mended, as_run)
+    corrected_row = corrected(row)
+    if _reproduces(row, converged):
+        lost = not _reproduces(corrected_row, as_run)
         return "agrees", "as run does not come back, see the errata" if lost else ""
     explanations: list[tuple[Cause, Found, tuple[float, float]]] = [
         ("agrees", converged, AS_RUN),
-        ("truncation", _truncated(own), (Z_REPORT, T_REPORT)),
+        ("truncation", _truncated(eq), (Z_REPORT, T_REPORT)),
         ("listing-slip", as_run, AS_RUN),
     ]
     for cause, found, tolerances in explanations:
-        if _returns(row, found, tolerances):
+        if _reproduces(row, found, tolerances):
             return cause, ""
     for cause, found, tolerances in explanations:
-        if mended != row and _returns(mended, found, tolerances):
+        if corrected_row != row and _reproduces(corrected_row, found, tolerances):
             return "misprint", f"as corrected: {cause}"
     return "unexplained", "open, see the errata" if is_open(row.id) else ""
 
@@ -185,7 +163,7 @@ def _truncated(eq: HillEquation) -> Found:
     return (found.T, found.z) if found else (float("nan"), np.full(eq.n, np.nan, complex))
 
 
-def _returns(row: Row, found: Found, tolerances: tuple[float, float] = AS_RUN) -> bool:
+def _reproduces(row: Row, found: Found, tolerances: tuple[float, float] = AS_RUN) -> bool:
     """Whether the printed T, z and rounded Omega are the ones found."""
     T, z = found
     z_tolerance, T_tolerance = tolerances

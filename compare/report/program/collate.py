@@ -95,19 +95,19 @@ def collate(printed: Sequence[str], computed: Sequence[str]) -> list[LineCompari
         if was is None or now is None:
             judged.append(LineComparison(place, was, now, "differs"))
             continue
-        state = compare(was, now)
+        state = compare_lines(was, now)
         if state != "same" and place.line in ROOTS:
             names = [place._replace(line=name) for name in ROOTS]
             pairs = [there.get(name, "") for name in names], [here.get(name, "") for name in names]
             ordered = _in_printed_order(*pairs)[ROOTS.index(place.line)]
-            again = compare(was, ordered)
+            again = compare_lines(was, ordered)
             if again != "differs" and state == "differs":
                 state, now = ("order" if again == "same" else again), ordered
         judged.append(LineComparison(place, was, now, state))
     return judged
 
 
-def compare(printed: str, computed: str) -> State:
+def compare_lines(printed: str, computed: str) -> State:
     """Whether a line comes back, its roots taken in the order in which they stand."""
     if printed == computed:
         return "same"

@@ -8,8 +8,8 @@ from itertools import combinations
 
 import numpy as np
 
-from compare.report.program.cards import Deck, Run
-from compare.report.program.evaluators import Route
+from compare.report.program.deck import Deck, DeckRun
+from compare.report.program.evaluators import Evaluator
 from compare.report.program.listing import Case, NoBoundary, Stab, search
 from compare.report.program.muller import in_order
 
@@ -88,13 +88,13 @@ class Note:
 Event = Note | Start | TableHeading | FrequencyLine | ResonanceHeading | Evaluation
 
 
-def events(deck: Deck, route: Route) -> Iterator[Event]:
+def events(deck: Deck, evaluator: Evaluator) -> Iterator[Event]:
     """All that a deck makes DRIVER write.
 
     Parameters
     ----------
     deck : Deck
-    route : Route
+    evaluator : Evaluator
         Who computes frequencies and z.
 
     Yields
@@ -108,7 +108,7 @@ def events(deck: Deck, route: Route) -> Iterator[Event]:
     """
     for run in deck.runs:
         yield Start(run.format)
-        yield from _run(deck, run, route)
+        yield from _run(deck, run, evaluator)
 
 
 def blocks(deck: Deck) -> int:
@@ -116,7 +116,7 @@ def blocks(deck: Deck) -> int:
     return sum(run.count * (1 if run.format == 1 else 9) for run in deck.runs)
 
 
-def _run(deck: Deck, run: Run, route: Route) -> Iterator[Event]:
+def _run(deck: Deck, run: DeckRun, evaluator: Evaluator) -> Iterator[Event]:
     N = deck.constants.N
     # DRIVER drops the rotation here, once, by the first SPC of its range
     count = N if next(run.cases())[0].SPC == 0.0 else N + 1
@@ -127,20 +127,20 @@ def _run(deck: Deck, run: Run, route: Route) -> Iterator[Event]:
                 "wants three roots; FORMATs 2 and 3 need SPC other than 0 (FORMAT 1 does not)"
             )
         with _named(f"TO = {case.TO:g}"):
-            found = route.frequencies(deck.constants, case, count)
+            found = evaluator.frequencies(deck.constants, case, count)
         line = FrequencyLine(case.TO, found)
         if run.format == 1:
             if heading:
                 yield TableHeading(case, N, count)
             yield line
         else:
-            yield from _resonances(deck, run, route, case, line)
+            yield from _resonances(deck, run, evaluator, case, line)
 
 
 def _resonances(
-    deck: Deck, run: Run, route: Route, case: Case, line: FrequencyLine
+    deck: Deck, run: DeckRun, evaluator: Evaluator, case: Case, line: FrequencyLine
 ) -> Iterator[Event]:
-    evaluate = partial(_evaluate, partial(route.stab, deck.constants, case))
+    evaluate = partial(_evaluate, partial(evaluator.stab, deck.constants, case))
     for sign, high, low, OMEGB in places(line.frequencies):
         # the stepped DRIVER has no WRITE (6,27) among the sums
         silent = deck.program == "stepped" and sign == "+"

@@ -27,7 +27,7 @@ HALF_UNIT = 0.005
 
 
 @dataclass(frozen=True)
-class Route:
+class Evaluator:
     """One way to compute.
 
     Attributes
@@ -110,10 +110,10 @@ def _signs_dropped(F: Float, count: int) -> tuple[float, ...]:
     return tuple(np.sqrt(np.abs(squares)).tolist())
 
 
-ROUTES = {
-    "as-run": Route("as-run", _frequencies_as_run, as_run),
-    "hill": Route("hill", _frequencies(lambda case: beam(case).equation(1.0, 0.0)), by_hill),
-    "floquet": Route(
+EVALUATORS = {
+    "as-run": Evaluator("as-run", _frequencies_as_run, as_run),
+    "hill": Evaluator("hill", _frequencies(lambda case: beam(case).equation(1.0, 0.0)), by_hill),
+    "floquet": Evaluator(
         "floquet", _frequencies(lambda case: galerkin(beam(case), 1.0, 0.0)), by_floquet
     ),
 }

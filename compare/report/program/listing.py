@@ -21,7 +21,7 @@ RIGID = 50.0
 
 MOST_HARMONICS = 14
 
-MOST_STEPS = 100
+MAX_STEPS = 100
 """Steps one way before the search for a boundary is given up: the report's runs take five."""
 
 
@@ -140,7 +140,7 @@ def search(
     Raises
     ------
     NoBoundary
-        All unstable down to OMEGB = 0, or over `MOST_STEPS`: the listing would go on for ever.
+        All unstable down to OMEGB = 0, or over `MAX_STEPS`: the listing would go on for ever.
     """
     first = evaluate(OMEGB)
     yield first
@@ -152,7 +152,7 @@ def search(
         at, inside, outside, steps = OMEGB + away, 0, 0, 0
         while True:
             steps += 1
-            if at <= 0.0 or steps > MOST_STEPS:
+            if at <= 0.0 or steps > MAX_STEPS:
                 raise NoBoundary(
                     f"SWITCH finds no boundary of the instability at OMEGB = {OMEGB:.3f}, "
                     f"as far as {at - away:.3f} by steps of {abs(away):.2g}"

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 import numpy as np
 
 START = (0.8, 0.85, 0.9)
-MOST_STEPS = 100
+MAX_STEPS = 100
 # Enough to tell which root it is. Two roots closer than this print the same anyway.
 CLOSE = 1e-7
 
@@ -37,7 +37,7 @@ def _one(roots: Sequence[complex]) -> complex:
     polynomial = np.poly(roots)
     x = [complex(start) for start in START]
     f = [complex(np.polyval(polynomial, at)) for at in x]
-    for _ in range(MOST_STEPS):
+    for _ in range(MAX_STEPS):
         first, second = (f[1] - f[0]) / (x[1] - x[0]), (f[2] - f[1]) / (x[2] - x[1])
         curvature = (second - first) / (x[2] - x[0])
         slope = second + curvature * (x[2] - x[1])
