@@ -7,7 +7,7 @@ import numpy as np
 
 from floquet import Monodromy, monodromy
 from floquet.witness import maker
-from hill import Characteristic, HillEquation, characteristic
+from hill import Characteristic, Fourier, HillEquation, PeriodicEquation, characteristic
 from hill.stability import Verdict
 
 Method = Literal["taylor", "cvodes"]
@@ -24,14 +24,15 @@ class CrossCheck:
     floquet : Monodromy
         By the time domain.
     difference : float
-        Largest difference between the coefficients of the two P(z).
+        Largest difference between the coefficients of the two polynomials, P(z) or that of the
+        multipliers.
     matrices : float
         Largest difference between the two routes' matrices, over their largest element.
     shared_matrices : bool
         Whether both routes were given the same matrices, so that only the solution is checked.
     routes_agree : bool
-        Whether `difference` is within the sum of the two errors, and neither route shows the
-        opposite of what the other shows.
+        Whether every coefficient's difference is within the sum of its two errors, and neither
+        route shows the opposite of what the other shows.
     verdict : {"stable", "unstable", "undecided"}
         What either route shows, where the other does not show the opposite.
     """
@@ -77,7 +78,7 @@ def crosscheck(
 
     Parameters
     ----------
-    what : HillEquation or System
+    what : HillEquation, PeriodicEquation or System
     Omega, gamma, eta : float, optional
         The forcing of a system; an equation has its own.
     method : {"taylor", "cvodes"}, optional
@@ -94,7 +95,7 @@ def crosscheck(
     OverflowError
         The growth over one period exceeds what a float can hold.
     """
-    if isinstance(what, HillEquation):
+    if isinstance(what, HillEquation | PeriodicEquation):
         if Omega is not None or gamma is not None or eta != 0.0:
             raise ValueError("Omega, gamma, eta: an equation has its own; leave them out")
         return compare_routes(what, what, method=method)
@@ -107,27 +108,36 @@ def crosscheck(
     return compare_routes(own, other, method=method)
 
 
-def compare_routes(
-    closed: HillEquation, other: HillEquation, *, method: Method = "taylor"
-) -> CrossCheck:
+def compare_routes(closed: Any, other: Any, *, method: Method = "taylor") -> CrossCheck:
     """An equation by the determinant, and the same or the witness's own by the time domain."""
     h, f = characteristic(closed), monodromy(other, method=method)
-    difference = float(np.max(np.abs(h.polynomial - f.polynomial)))
+    apart = np.abs(h.polynomial - f.polynomial)
     shown = {h.verdict, f.verdict} - {"undecided"}
     return CrossCheck(
         hill=h,
         floquet=f,
-        difference=difference,
+        difference=float(np.max(apart)),
         matrices=0.0 if closed is other else _apart(closed, other),
         shared_matrices=closed is other,
-        routes_agree=difference <= h.error + f.error and len(shown) < 2,
+        routes_agree=bool(np.all(apart <= h.errors + f.errors)) and len(shown) < 2,
         verdict=shown.pop() if len(shown) == 1 else "undecided",
     )
 
 
-def _apart(one: HillEquation, other: HillEquation) -> float:
-    pairs = zip((one.F, one.G, *one.H), (other.F, other.G, *other.H), strict=True)
+def _apart(one: Any, other: Any) -> float:
+    pairs = zip(_matrices(one), _matrices(other), strict=True)
     return max(
         float(np.max(np.abs(a - b)) / max(np.max(np.abs(a)), np.max(np.abs(b)), 1e-300))
         for a, b in pairs
     )
+
+
+def _matrices(equation: HillEquation | PeriodicEquation) -> list[Any]:
+    if isinstance(equation, HillEquation):
+        return [equation.F, equation.G, *equation.H]
+    parts = [x for x in (equation.K, equation.C, equation.A) if x is not None]
+    return [matrix for part in parts for matrix in _coefficients(part)]
+
+
+def _coefficients(matrix: Fourier) -> list[Any]:
+    return [matrix.mean, *matrix.cos.values(), *matrix.sin.values()]

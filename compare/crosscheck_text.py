@@ -48,7 +48,7 @@ def summary(subject: Subject, x: CrossCheck) -> tuple[str, str]:
     )
     return (
         f"{subject.title}: {x.verdict.upper()}, {T}{doubles}.",
-        f"The routes {agree}: P(z) differs by {x.difference:.1e}, their bounds allow "
+        f"The routes {agree}: P({_variable(x)}) differs by {x.difference:.1e}, their bounds allow "
         f"{x.bound:.1e}; {matrices}.",
     )
 
@@ -155,11 +155,22 @@ def _compared(x: CrossCheck) -> list[tuple[str, str, str]]:
         ("T known to", f"{h.T_error:.0e}", f"{f.T_error:.0e}"),
     ]
     for k in range(1, degree + 1):
-        rows.append((f"P, z^{degree - k}", f"{h.polynomial[k]:.12g}", f"{f.polynomial[k]:.12g}"))
+        rows.append(
+            (
+                f"P, {_variable(x)}^{degree - k}",
+                f"{h.polynomial[k]:.12g}",
+                f"{f.polynomial[k]:.12g}",
+            )
+        )
     rows.append(("P known to", f"{h.error:.0e}", f"{f.error:.0e}"))
     for k, (one, other) in enumerate(zip(h.z, f.z, strict=True), start=1):
         rows.append((f"z_{k}", _complex(complex(one)), _complex(complex(other))))
     return rows
+
+
+def _variable(x: CrossCheck) -> str:
+    """What P is a polynomial of."""
+    return "z" if len(x.hill.z) else "mu"
 
 
 def _table(*heads: str) -> Table:

@@ -1,7 +1,8 @@
 """Hill's determinant: equations, systems and the determinant's route to their stability."""
 
 from hill.beams import SteppedBeam, UniformBeam
-from hill.determinant.converged import Characteristic, characteristic
+from hill.determinant.converged import characteristic
+from hill.determinant.result import Characteristic
 from hill.equation import HillEquation
 from hill.errors import LongitudinalResonance, Refused
 from hill.periodic import Fourier, PeriodicEquation

@@ -35,8 +35,8 @@ class HillEquation:
     Omega : float
         Forcing frequency over ``omega_1``, > 0.
     eta : float or (n, n) array_like, optional
-        Transverse damping over ``omega_1``. A matrix is for the time domain only: the report's
-        transformation (6.1.2), and with it z, needs one number.
+        Transverse damping over ``omega_1``. With a matrix there is no z, as the report's
+        transformation (6.1.2) needs one number: both routes give the polynomial of the multipliers.
     H : sequence of (n, n) array_like, optional
         ``H[s - 1]`` multiplies ``cos(s omega_L tau)``.
     omega_L : float, optional
@@ -145,8 +145,8 @@ class HillEquation:
         """
         if np.ndim(self.eta) > 0:
             raise ValueError(
-                "eta is a matrix: the determinant, z and half a period need one number; "
-                "use floquet.monodromy, which integrates the whole period"
+                "eta is a matrix: z and half a period need one number; "
+                "characteristic and monodromy do without"
             )
         return cast(float, self.eta)
 

@@ -28,9 +28,10 @@ HORNER = 4.0
 
 @dataclass(frozen=True, eq=False)
 class Stability:
-    """Roots z of one P, T and its error, and the verdict."""
+    """Roots z of one P and their discs' radii, T and its error, and the verdict."""
 
     z: Complex
+    radius: Float
     T: float
     T_error: float
     verdict: Verdict
@@ -74,7 +75,8 @@ def stability_of(polynomial: Float, error: ArrayLike, Omega: float, eta: float) 
     errors = np.broadcast_to(np.asarray(error, float), polynomial.shape)
     found = stabilities(polynomial[None], errors[None], np.array([Omega]), np.array([eta]))
     verdict: Any = str(found.verdict[0])
-    return Stability(found.z[0], float(found.T[0]), float(found.T_error[0]), verdict)
+    T, T_error = float(found.T[0]), float(found.T_error[0])
+    return Stability(found.z[0], found.radius[0], T, T_error, verdict)
 
 
 def stabilities(polynomials: Float, errors: Float, Omega: Float, eta: Float) -> Stabilities:
@@ -127,7 +129,7 @@ def roots(polynomials: Float) -> Complex:
     return np.asarray(np.take_along_axis(z, order, axis=1))
 
 
-def root_radii(p: Float, errors: Float, z: Complex) -> Float:
+def root_radii(p: Float, errors: Float, z: Complex, size: Float | None = None) -> Float:
     """A radius about each computed root z that holds a true one, all of them accounted for.
 
     On a circle about z_j on which the computed polynomial exceeds whatever its error can amount to,
@@ -141,6 +143,8 @@ def root_radii(p: Float, errors: Float, z: Complex) -> Float:
     p, errors : (k, n + 1) ndarray
         Monic; ``errors[:, 0]`` is 0.
     z : (k, n) complex ndarray
+    size : (k, n) ndarray, optional
+        Unit of the radii that are tried, no less than the modulus of z: 1 + |z| by default.
 
     Returns
     -------
@@ -148,7 +152,7 @@ def root_radii(p: Float, errors: Float, z: Complex) -> Float:
         Where no circle is clear, one about z_j that holds all roots there are.
     """
     n = z.shape[1]
-    size = 1.0 + np.abs(z)
+    size = 1.0 + np.abs(z) if size is None else size
     with np.errstate(over="ignore", invalid="ignore"):
         again, moduli = _from_roots(z), _from_roots(-np.abs(z).astype(complex)).real
         unsure = errors + np.abs(p - again) + 4.0 * n * EPS * np.abs(moduli)

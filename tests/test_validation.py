@@ -185,8 +185,11 @@ def test_unknown_method(method: Any) -> None:
     refused(monodromy, equation(), method=method, message=f"method = {method!r}")
 
 
-def test_the_determinant_refuses_a_damping_matrix() -> None:
-    refused(characteristic, equation(eta=0.1 * np.eye(2)), message="eta is a matrix")
+@pytest.mark.parametrize("truncation", ["report", 5])
+def test_finite_determinants_refuse_a_damping_matrix(truncation: Any) -> None:
+    damped = equation(eta=0.1 * np.eye(2))
+    message = f'truncation = {truncation!r}: must be "converged"'
+    refused(characteristic, damped, truncation=truncation, message=message)
 
 
 def test_without_H_omega_L_is_free() -> None:

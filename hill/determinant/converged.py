@@ -9,7 +9,6 @@ coefficients the theorem also checks itself: the samples must turn out to have l
 and no higher ones, and by how much they fail is a measured rounding error.
 """
 
-from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
@@ -18,9 +17,10 @@ from hill import checks
 from hill.arrays import EPS, Complex, Float
 from hill.determinant import finite, residues
 from hill.determinant.finite import Blocks
+from hill.determinant.result import Characteristic, of_multipliers, of_z
 from hill.determinant.rounding import coefficient_shifts
 from hill.equation import HillEquation
-from hill.stability import Stability, Verdict, stability_of
+from hill.periodic import PeriodicEquation
 
 # Finite sizes M, 1.25 M, 1.5 M; the remainder is a series in 1/M that starts at the fifth power.
 LEVELS = (1.0, 1.25, 1.5)
@@ -30,58 +30,17 @@ POWERS = (5, 6)
 SAFETY = 4.0
 
 
-@dataclass(frozen=True, eq=False)
-class Characteristic:
-    """The characteristic equation of a `HillEquation`, from its infinite determinant.
-
-    Attributes
-    ----------
-    polynomial : (n + 1,) float ndarray
-        P(z), monic, highest power first.
-    error : float
-        Bound on the absolute error of every coefficient of `polynomial`, for the matrices F, G and
-        H to the last bit as they are given.
-    data_error : float
-        What the equation's own `data_error` may add to that, to first order; 0 where it has none.
-    z : (n,) complex ndarray
-        The characteristic values cos 2 pi alpha (6.3.8), by descending real part.
-    T : float
-        Characteristic argument (7.1.1): the growth exponent of q, doubled, over ``omega_1``.
-    T_error : float
-        Bound on the error of `T` that `error` allows; large where two z meet.
-    verdict : {"stable", "unstable", "undecided"}
-        What P and its error show: all z real, simple and within (-1, 1), or no growth with damping;
-        growth; or neither.
-    M : tuple of int
-        Harmonics kept: in each determinant of the extrapolation, or for each residue K_j.
-    form : {"converged", "residues", "samples"}
-        How `polynomial` was obtained.
-    """
-
-    polynomial: Float
-    error: float
-    data_error: float
-    z: Complex
-    T: float
-    T_error: float
-    verdict: Verdict
-    M: tuple[int, ...]
-    form: Literal["converged", "residues", "samples"]
-
-    @property
-    def stable(self) -> bool:
-        """Whether the system is shown to be stable."""
-        return self.verdict == "stable"
-
-
 def characteristic(
-    equation: HillEquation, *, truncation: Literal["converged", "report"] | int = "converged"
+    equation: HillEquation | PeriodicEquation,
+    *,
+    truncation: Literal["converged", "report"] | int = "converged",
 ) -> Characteristic:
-    """Solve the matrix Hill equation (6.1.1) by its infinite determinant.
+    """Solve a periodic equation, the matrix Hill equation (6.1.1) or any other, by its determinant.
 
     Parameters
     ----------
-    equation : HillEquation
+    equation : HillEquation or PeriodicEquation
+        With a damping matrix a `HillEquation` is taken in general form.
     truncation : "converged", "report" or int, optional
         "converged" sums and extrapolates the determinant's tail. "report" keeps
         ``(sqrt|F_NN| + sqrt|F_jj|)/Omega + 1`` harmonics, at most 14, and takes residues as
@@ -96,7 +55,8 @@ def characteristic(
     Raises
     ------
     ValueError
-        `truncation` unknown, or `equation.eta` a matrix.
+        `truncation` unknown, or anything but "converged" for an equation that has no z; an `Omega`
+        too small for the determinant.
     OverflowError
         The growth over one period exceeds what a float can hold.
 
@@ -104,6 +64,13 @@ def characteristic(
     ----------
     Sections 6.2 and 6.3 of the report; Whittaker and Watson, A Course of Modern Analysis, 19.42.
     """
+    if isinstance(equation, PeriodicEquation) or np.ndim(equation.eta) > 0:
+        if truncation != "converged":
+            raise ValueError(
+                f'truncation = {truncation!r}: must be "converged" for an equation without z'
+            )
+        general = equation if isinstance(equation, PeriodicEquation) else equation.general()
+        return of_multipliers(general)
     system = finite.blocks(equation)
     try:
         # what overflows is refused below, once, by what comes out
@@ -116,7 +83,7 @@ def characteristic(
     if not (np.all(np.isfinite(converged)) and np.isfinite(error)):
         raise OverflowError(finite.OVERFLOW)
     if truncation == "converged":
-        return _result(equation, converged, error, data_error, levels, "converged")
+        return of_z(equation, converged, error, data_error, levels, "converged")
     if truncation == "report":
         kept = residues.report_rule(equation)
     elif isinstance(truncation, str):
@@ -128,7 +95,7 @@ def characteristic(
     if polynomial is None:
         polynomial, form = _sampled(system, max(kept)), "samples"
     error += float(np.max(np.abs(polynomial - converged)))
-    return _result(equation, polynomial, error, data_error, kept, form)
+    return of_z(equation, polynomial, error, data_error, kept, form)
 
 
 def _moved(system: Blocks, e: HillEquation, polynomial: Float) -> tuple[float, float]:
@@ -151,18 +118,6 @@ def _moved(system: Blocks, e: HillEquation, polynomial: Float) -> tuple[float, f
         except np.linalg.LinAlgError:
             continue
     return float("inf"), float("inf")
-
-
-def _result(
-    equation: HillEquation,
-    polynomial: Float,
-    error: float,
-    data_error: float,
-    M: tuple[int, ...],
-    form: Literal["converged", "residues", "samples"],
-) -> Characteristic:
-    s: Stability = stability_of(polynomial, error, equation.Omega, equation.damping)
-    return Characteristic(polynomial, error, data_error, s.z, s.T, s.T_error, s.verdict, M, form)
 
 
 def _circle(n: int) -> tuple[Complex, Complex]:

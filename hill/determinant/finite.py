@@ -26,6 +26,7 @@ from scipy.linalg.lapack import zgbtrf
 from scipy.special import zeta
 
 from hill.arrays import Complex, Float
+from hill.determinant.products import products
 from hill.equation import HillEquation
 
 # Gauss nodes for the tail's integral. Its integrand is analytic to twice the interval's length
@@ -161,21 +162,8 @@ def _finite(system: Blocks, alpha: Complex, M: int) -> tuple[Complex, NDArray[np
         lu, rows, _ = zgbtrf(table.reshape(-1, size), width, width, overwrite_ab=True)
         pivots[i] = lu[2 * width]
         signs[i] = (-1.0) ** np.count_nonzero(rows != np.arange(size))
-    mantissa, exponent = _products(pivots)
+    mantissa, exponent = products(pivots)
     return signs * mantissa, exponent
-
-
-def _products(factors: Complex) -> tuple[Complex, NDArray[np.int_]]:
-    """Product of each row as a mantissa and a power of two, so that nothing overflows."""
-    count = len(factors)
-    exponent = np.zeros(count, int)
-    while factors.shape[1] > 1:
-        # groups of 16 factors in [1/2, 1) stay above 2**-16
-        padded = np.hstack([factors, np.ones((count, -factors.shape[1] % 16))])
-        shifts = np.frexp(np.abs(padded))[1]
-        exponent += shifts.sum(axis=1)
-        factors = np.prod((padded * np.ldexp(1.0, -shifts)).reshape(count, -1, 16), axis=2)
-    return factors[:, 0], exponent
 
 
 def log_block_tail(squares: Complex, alpha: Complex, M: int) -> Complex:

@@ -1,0 +1,151 @@
+"""What the determinant says of an equation."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from hill.arrays import EPS, Complex, Float
+from hill.determinant.general_polynomial import polynomial
+from hill.equation import HillEquation
+from hill.multipliers import multipliers
+from hill.periodic import PeriodicEquation
+from hill.stability import Verdict, stability_of
+
+Form = Literal["converged", "residues", "samples"]
+
+
+@dataclass(frozen=True, eq=False)
+class Characteristic:
+    """The characteristic equation of a periodic system, from its infinite determinant.
+
+    Attributes
+    ----------
+    polynomial : (n + 1,) float ndarray
+        P(z), monic, highest power first. Of a `PeriodicEquation`, and with a damping matrix, which
+        have no z, the polynomial of the multipliers themselves, (m + 1,).
+    errors : (n + 1,) float ndarray
+        Bound on the absolute error of each coefficient of `polynomial`, for the matrices to the
+        last bit as they are given.
+    data_error : float
+        What the equation's own `data_error` may add to that, to first order; 0 where it has none.
+    z : (n,) complex ndarray
+        The characteristic values cos 2 pi alpha (6.3.8), by descending real part; empty where
+        `polynomial` is that of the multipliers.
+    multipliers : (m,) complex ndarray
+        By descending modulus.
+    exponents : (m,) complex ndarray
+        ln of the multipliers over the period, in the same order: the solutions of q grow like
+        their exponentials.
+    exponent_errors : (m,) float ndarray
+        Bounds on the absolute errors of `exponents` that `errors` allow; infinite where a
+        multiplier may be 0 for all that is known.
+    T : float
+        Characteristic argument (7.1.1): twice the largest growth exponent, over ``omega_1``.
+    T_error : float
+        Bound on the error of `T` that `errors` allow; large where two z, or two multipliers, meet.
+    verdict : {"stable", "unstable", "undecided"}
+        What the polynomial and its errors show: no growth, all z real, simple and within (-1, 1) or
+        every multiplier within the unit circle; growth; or neither.
+    M : tuple of int
+        Harmonics kept: in each determinant of the extrapolation, or for each residue K_j; of a
+        `PeriodicEquation` in the one determinant there is.
+    form : {"converged", "residues", "samples"}
+        How `polynomial` was obtained.
+    """
+
+    polynomial: Float
+    errors: Float
+    data_error: float
+    z: Complex
+    multipliers: Complex
+    exponents: Complex
+    exponent_errors: Float
+    T: float
+    T_error: float
+    verdict: Verdict
+    M: tuple[int, ...]
+    form: Form
+
+    @property
+    def error(self) -> float:
+        """Bound on the absolute error of every coefficient of `polynomial`: largest of `errors`."""
+        return float(np.max(self.errors))
+
+    @property
+    def stable(self) -> bool:
+        """Whether the system is shown to be stable."""
+        return self.verdict == "stable"
+
+
+def of_z(
+    equation: HillEquation,
+    polynomial: Float,
+    error: float,
+    data_error: float,
+    M: tuple[int, ...],
+    form: Form,
+) -> Characteristic:
+    """From P(z)."""
+    s = stability_of(polynomial, error, equation.Omega, equation.damping)
+    root = np.sqrt(s.z - 1.0) * np.sqrt(s.z + 1.0)
+    outer = np.where(np.abs(s.z + root) >= np.abs(s.z - root), s.z + root, s.z - root)
+    growth = np.log(outer) / equation.period
+    # on the circle, and pairs stay together
+    growth = np.where((s.z.imag == 0.0) & (np.abs(s.z) <= 1.0), 1j * growth.imag, growth)
+    exponents = np.stack([growth, -growth], axis=1).ravel() - 0.5 * equation.damping + 0j
+    off = np.repeat(_of_arccosh(s.z, s.radius) / equation.period, 2)
+    off = off + 4.0 * EPS * (np.abs(exponents) + np.abs(equation.damping))
+    order = np.argsort(-exponents.real, kind="stable")
+    with np.errstate(over="ignore", under="ignore"):
+        decay = np.exp(-0.5 * equation.damping * equation.period)
+        mu = np.stack([outer, 1.0 / outer], axis=1).ravel() * decay
+    return Characteristic(
+        polynomial=polynomial,
+        errors=np.append(0.0, np.full(len(polynomial) - 1, error)),
+        data_error=data_error,
+        z=s.z,
+        multipliers=mu[order],
+        exponents=exponents[order],
+        exponent_errors=off[order],
+        T=s.T,
+        T_error=s.T_error,
+        verdict=s.verdict,
+        M=M,
+        form=form,
+    )
+
+
+def of_multipliers(equation: PeriodicEquation) -> Characteristic:
+    """From the polynomial of the multipliers."""
+    # what overflows is refused, by what comes out
+    with np.errstate(over="ignore", invalid="ignore"):
+        found = polynomial(equation)
+    m = multipliers(found.coefficients, found.errors, equation.period, found.mean)
+    return Characteristic(
+        polynomial=found.coefficients,
+        errors=found.errors,
+        data_error=float(np.max(found.data_errors)),
+        z=np.empty(0, complex),
+        multipliers=m.mu,
+        exponents=m.exponents,
+        exponent_errors=m.exponent_errors,
+        T=m.T,
+        T_error=m.T_error,
+        verdict=m.verdict,
+        M=found.M,
+        form="converged",
+    )
+
+
+def _of_arccosh(z: Complex, radius: Float) -> Float:
+    """How far arccosh moves at most, its sign and whole turns apart, as z moves within a disc.
+
+    By its derivative 1/(z^2 - 1)^(1/2) within the disc; or, close to 1 and -1, from
+    cosh w' - cosh w = 2 sinh (w' + w)/2 sinh (w' - w)/2, whose smaller factor is at most
+    (radius/2)^(1/2), and |x| <= pi/2 |sinh x| for |Im x| <= pi/2.
+    """
+    near, far = (np.sqrt(np.maximum(np.abs(z - one) - radius, 0.0)) for one in (1.0, -1.0))
+    least = near * far
+    steep = np.divide(radius, least, out=np.full_like(radius, np.inf), where=least > 0.0)
+    return np.minimum(steep, np.pi * np.sqrt(0.5 * radius))
