@@ -5,7 +5,10 @@ from importlib.metadata import version
 from typing import Any
 
 SCHEMA = 1
-UNITS = "dimensionless: Omega, eta, T over omega_1; T0 over E I/l^2 (4.4.12); z and P pure numbers"
+UNITS = (
+    "the system's own: Omega, eta and T in its unit of frequency; gamma, z and P pure numbers; of "
+    "the report's beams frequencies over omega_1, T0 over E I/l^2 (4.4.12)"
+)
 
 
 def provenance(about: dict[str, Any]) -> dict[str, Any]:

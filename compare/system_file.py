@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import MISSING, dataclass, field, fields
+from dataclasses import MISSING, dataclass, field, fields, is_dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -68,14 +68,38 @@ def with_settings(found: Described, settings: Mapping[str, float]) -> Described:
     """
     own = {k: v for k, v in settings.items() if k not in FORCING}
     names = [p.name for p in found.system.parameters]
+    counts = [name for name in _whole_fields(found.system) if name not in names]
     for name in own:
-        if name not in names:
-            raise ValueError(f"{name}: {one_of(name, [*names, *FORCING])}")
-    forcing = found.forcing | {k: v for k, v in settings.items() if k in FORCING}
-    return Described(varied(found.system, own), forcing, found.axes, found.kind, found.title)
+        if name not in (*names, *counts):
+            raise ValueError(f"{name}: {one_of(name, [*FORCING, *names, *counts])}")
+    system = varied(found.system, {k: v for k, v in own.items() if k in names})
+    whole = {k: _whole(k, v) for k, v in own.items() if k in counts}
+    return replace(
+        found,
+        system=replace(system, **whole) if whole else system,
+        forcing=found.forcing | {k: v for k, v in settings.items() if k in FORCING},
+    )
+
+
+def _whole_fields(system: Any) -> list[str]:
+    """A dataclass's counts, such as the number of modes: they can be set, and not varied."""
+    if not is_dataclass(system) or isinstance(system, type):
+        return []
+    own = [f.name for f in fields(system) if f.init]
+    return [n for n in own if isinstance(getattr(system, n), int) and n != "kind"]
+
+
+def _whole(name: str, value: float) -> int:
+    if value != int(value):
+        raise ValueError(f"{name} = {value:g}: must be a whole number")
+    return int(value)
 
 
 def _described(content: dict[str, Any], path: Path) -> Described:
+    if "beam" in content:
+        raise ValueError(
+            'beam: is written kind = "uniform" or "stepped", and its numbers under [system]'
+        )
     kind = content.get("kind")
     keys = OWN_KEYS.get(str(kind), ())
     if str(kind) in KINDS or kind is None:

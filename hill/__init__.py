@@ -4,7 +4,7 @@ from hill.beams import SteppedBeam, UniformBeam
 from hill.determinant.converged import characteristic
 from hill.determinant.result import Characteristic
 from hill.equation import HillEquation
-from hill.errors import LongitudinalResonance, Refused
+from hill.errors import LongitudinalResonance, Refused, Singular
 from hill.periodic import Fourier, PeriodicEquation
 from hill.system import MatrixSystem, Parameter, System
 from hill.vehicle.parts import Damping, PointMass, Section, Sensor, Thrust
@@ -24,6 +24,7 @@ __all__ = [
     "Refused",
     "Section",
     "Sensor",
+    "Singular",
     "SteppedBeam",
     "System",
     "Thrust",

@@ -3,7 +3,8 @@
 A guess to start from, not a result: the boundaries themselves come from P.
 """
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, field
 from itertools import combinations_with_replacement
 from typing import Any
 
@@ -25,16 +26,19 @@ class Resonance:
     Attributes
     ----------
     i, j : int
-        Natural frequencies in ascending order, 0 for omega_(B); i >= j.
+        Natural frequencies in ascending order, from 0; i >= j.
     sign : {1, -1}
     order : int
         k.
+    names : tuple of str
+        What the system calls its frequencies; as the report does, B, 1, 2, ..., where it is empty.
     """
 
     i: int
     j: int
     sign: int = 1
     order: int = 1
+    names: tuple[str, ...] = field(default=(), compare=False)
 
     @property
     def type(self) -> str:
@@ -49,9 +53,15 @@ class Resonance:
         return "-1" if self.order % 2 else "+1"
 
     @property
+    def frequencies(self) -> tuple[str, str]:
+        """The names of its two frequencies."""
+        names = self.names or ("B", *(str(k) for k in range(1, self.i + 1)))
+        return names[self.i], names[self.j]
+
+    @property
     def name(self) -> str:
-        """As the tables print it: "2 omega_(B)", "omega_(B) + omega_(1)"."""
-        first, second = _name(self.i), _name(self.j)
+        """As the report's tables print it: "2 omega_(B)", "omega_(1) + omega_(B)"."""
+        first, second = (f"omega_({name})" for name in self.frequencies)
         text = f"2 {first}" if self.i == self.j else f"{first} {'+-'[self.sign < 0]} {second}"
         return text if self.order == 1 else f"({text})/{self.order}"
 
@@ -63,15 +73,12 @@ class Resonance:
         return (first.real + self.sign * second.real) / self.order
 
 
-def _name(i: int) -> str:
-    return f"omega_({i or 'B'})"
-
-
-def first_order(n: int) -> tuple[Resonance, ...]:
-    """Every resonance of order 1 of n coordinates."""
+def first_order(n: int, names: Sequence[str] = ()) -> tuple[Resonance, ...]:
+    """Every resonance of order 1 of n frequencies, with the names that they have."""
+    own = tuple(names)
     pairs = [(i, j) for j, i in combinations_with_replacement(range(n), 2)]
-    differences = [Resonance(i, j, -1) for i, j in pairs if i > j]
-    return tuple([Resonance(i, j) for i, j in pairs] + differences)
+    differences = [Resonance(i, j, -1, names=own) for i, j in pairs if i > j]
+    return tuple([Resonance(i, j, names=own) for i, j in pairs] + differences)
 
 
 def modal(equation: HillEquation) -> tuple[Complex, Complex]:
@@ -95,8 +102,28 @@ def half_width(resonance: Resonance, equation: HillEquation, *, damped: bool = T
     Hsu, On the parametric excitation of a dynamic system having multiple degrees of freedom,
     Journal of Applied Mechanics 30 (1963).
     """
+    square = 0.25 * equation.gamma**2 * coupling(resonance, equation)
+    square -= equation.damping**2 if damped else 0.0
+    return float(np.sqrt(square)) if square > 0.0 else 0.0
+
+
+def critical_gamma(resonance: Resonance, equation: HillEquation) -> float:
+    """Where Hsu's width with damping opens, 2 eta/sqrt(+-G_ij G_ji/(omega_i omega_j)).
+
+    Nan without damping, above the first order, and where there is no instability.
+    """
+    eta, square = equation.damping, coupling(resonance, equation)
+    if eta <= 0.0 or resonance.order > 1 or not square > 0.0:
+        return float("nan")
+    return float(2.0 * eta / np.sqrt(square))
+
+
+def coupling(resonance: Resonance, equation: HillEquation) -> float:
+    """+-G_ij G_ji/(omega_i omega_j), G in the modes of F: an instability where it is positive.
+
+    0 where a frequency is: first order says nothing of a rigid body's motion.
+    """
     frequencies, G = modal(equation)
     i, j = resonance.i, resonance.j
-    product = resonance.sign * (G[i, j] * G[j, i] / (frequencies[i] * frequencies[j])).real
-    square = 0.25 * equation.gamma**2 * product - (equation.damping**2 if damped else 0.0)
-    return float(np.sqrt(square)) if square > 0.0 else 0.0
+    squares = frequencies[i] * frequencies[j]
+    return float(resonance.sign * (G[i, j] * G[j, i] / squares).real) if squares else 0.0

@@ -18,7 +18,7 @@ COMMON = (
     Parameter("T0", dependence="linear"),
     Parameter("K_theta", dependence="linear"),
     Parameter("xi_G", 0.0, 1.0),
-    Parameter("omega_L", 0.0),
+    Parameter("omega_L", 0.0, moves=("G", "H")),
 )
 
 # Points a unit of Omega/omega_L at which a longitudinal resonance is looked for.

@@ -74,7 +74,7 @@ class UniformBeam:
     @property
     def parameters(self) -> tuple[Parameter, ...]:
         """What may be varied; `modes` may not."""
-        return (*COMMON, Parameter("g", 0.0, MAX_G))
+        return (*COMMON, Parameter("g", 0.0, MAX_G, moves=("G",)))
 
     @property
     def depends_on_Omega(self) -> bool:
@@ -86,11 +86,12 @@ class UniformBeam:
         """As the report calls them: rotation first, then bending."""
         return names(self.modes)
 
-    def longitudinal_resonances(self, least: float, most: float) -> Float:
-        """Omega/omega_L between `least` and `most` where the axial force is infinite (4.4.16)."""
-        if self.g > 0.0:
+    def singular_Omega(self, low: float, high: float) -> Float:
+        """Omega from `low` to `high` where the axial force is infinite (4.4.16)."""
+        if self.g > 0.0 or math.isinf(self.omega_L):
             return np.empty(0)
-        return np.arange(max(math.ceil(least), 1), math.floor(most) + 1, dtype=float)
+        first, last = math.ceil(low / self.omega_L), math.floor(high / self.omega_L)
+        return self.omega_L * np.arange(max(first, 1), last + 1)
 
     def natural_frequencies(self) -> Float | Complex:
         """omega_(B) and omega_(1..N) under the constant thrust, over ``omega_1``.
@@ -212,8 +213,14 @@ class SteppedBeam:
     @property
     def parameters(self) -> tuple[Parameter, ...]:
         """What may be varied; `modes` may not."""
-        positive = (Parameter(name, 0.0) for name in ("area_ratio", "inertia_ratio"))
-        return (*COMMON, Parameter("xi_c", 0.0, 1.0), *positive)
+        *thrust, elastic = COMMON
+        return (
+            *thrust,
+            Parameter("xi_c", 0.0, 1.0),
+            Parameter("area_ratio", 0.0),
+            Parameter("inertia_ratio", 0.0, dependence="linear", moves=("F",)),
+            elastic,
+        )
 
     @property
     def depends_on_Omega(self) -> bool:
@@ -225,8 +232,11 @@ class SteppedBeam:
         """As the report calls them: rotation first, then bending."""
         return names(self.modes)
 
-    def longitudinal_resonances(self, least: float, most: float) -> Float:
-        """Omega/omega_L between `least` and `most` where the axial force is infinite (5.3.13)."""
+    def singular_Omega(self, low: float, high: float) -> Float:
+        """Omega from `low` to `high` where the axial force is infinite (5.3.13)."""
+        if math.isinf(self.omega_L):
+            return np.empty(0)
+        least, most = low / self.omega_L, high / self.omega_L
 
         def stiffness(sigma: float) -> float:
             nu = np.pi * sigma
@@ -237,7 +247,7 @@ class SteppedBeam:
         values = np.array([stiffness(x) for x in grid])
         changes = np.flatnonzero(np.sign(values[:-1]) * np.sign(values[1:]) < 0)
         inner = [brentq(stiffness, grid[k], grid[k + 1], xtol=1e-14) for k in changes]
-        return np.array([x for x in (*grid[values == 0.0], *inner) if x > 0.0])
+        return self.omega_L * np.array([x for x in (*grid[values == 0.0], *inner) if x > 0.0])
 
     def natural_frequencies(self) -> Float | Complex:
         """omega_(B) and omega_(1..N) under the constant thrust, as for `UniformBeam`."""

@@ -5,5 +5,9 @@ class Refused(ValueError):
     """Input that cannot be answered, said in one line."""
 
 
-class LongitudinalResonance(Refused):
-    """The undamped axial force is infinite: there is no equation at this point."""
+class Singular(Refused):
+    """There is no equation at this point: a coefficient has a pole there."""
+
+
+class LongitudinalResonance(Singular):
+    """The undamped axial force is infinite."""

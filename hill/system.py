@@ -17,6 +17,8 @@ Float = NDArray[np.float64]
 FORCING = ("Omega", "gamma", "eta")
 """What every system is asked at; no parameter of its own may be called so."""
 
+SMOOTH = ("value", "reciprocal")
+
 
 @dataclass(frozen=True)
 class Parameter:
@@ -28,17 +30,36 @@ class Parameter:
     low, high : float
         Between which it has a meaning.
     dependence : {"analytic", "linear"}
-        How F and G move with it; between singular points analytically, or linearly everywhere.
+        How F, G and H move with it: analytically between singular points, or linearly everywhere
+        (a constant and a slope).
+    smooth : {"value", "reciprocal"}
+        The variable in which a chart's series runs: the parameter itself, or one over it (for a
+        length, say, that is divided by); `low` must then be 0 or more.
+    moves : tuple of str
+        Which of "F", "G" and "H" move with it.
     """
 
     name: str
     low: float = -math.inf
     high: float = math.inf
     dependence: Literal["analytic", "linear"] = "analytic"
+    smooth: Literal["value", "reciprocal"] = "value"
+    moves: tuple[str, ...] = ("F", "G", "H")
 
     def __post_init__(self) -> None:
         if self.name in FORCING:
             raise ValueError(f"parameter = {self.name!r}: must not be called like the forcing")
+        for name, known in (("dependence", ("analytic", "linear")), ("smooth", SMOOTH)):
+            if getattr(self, name) not in known:
+                raise ValueError(
+                    f"parameter {self.name!r}: {name} = {getattr(self, name)!r}: must be one of "
+                    f"{', '.join(known)}"
+                )
+        if self.smooth == "reciprocal" and not self.low >= 0.0:
+            raise ValueError(
+                f"parameter {self.name!r}: low = {self.low:g}: must be at least 0 with "
+                "smooth = 'reciprocal'"
+            )
 
 
 @runtime_checkable
@@ -46,9 +67,23 @@ class System(Protocol):
     """Anything that has an equation under every forcing.
 
     A frozen dataclass whose fields of the parameters' names are numbers needs no more than this.
-    What else it may have: ``frequency_names``, a sequence of str, one a coordinate, ascending;
-    ``varied(**values)``, where it is no dataclass; ``depends_on_Omega``, False where F and G do not
-    move with Omega (True is assumed).
+    What else it may have:
+
+    frequency_names
+        A sequence of str, one a natural frequency, ascending; "1", "2", ... where there is none.
+    depends_on_Omega
+        Whether F and G move with Omega. To have it at all is to promise that they do not move with
+        gamma and eta, and that the equation's forcing is the one that was asked for: a chart then
+        makes them once for many points. (It looks at a few, and refuses a promise not kept.)
+    singular_Omega(low, high)
+        Forcing frequencies between `low` and `high` at which there is no equation, because a
+        coefficient has a pole there; ``equation`` raises `hill.errors.Singular` at them.
+    natural_frequencies()
+        Of the unforced, undamped system; from F where it is not there.
+    varied(**values)
+        The system with other values of some parameters, where it is no dataclass.
+    values
+        A mapping of the parameters' names to their numbers, where they are no attributes.
     """
 
     @property
@@ -91,22 +126,39 @@ def varied(system: Any, values: Mapping[str, float]) -> Any:
     raise ValueError(f"{type(system).__name__}: must be a dataclass, or have varied(**values)")
 
 
-def natural_frequencies(system: System) -> Complex:
+def natural_frequencies(system: System, Omega: float = 1.0) -> Complex:
     """Of the unforced, undamped system, ascending by real part; complex where it is unstable.
 
-    The square roots of F's eigenvalues, F at Omega = 1.
+    The square roots of F's eigenvalues, F at `Omega`, where the system does not say them itself.
     """
     if hasattr(system, "natural_frequencies"):
         return np.asarray(system.natural_frequencies(), complex)
-    squares = np.linalg.eigvals(system.equation(1.0, 0.0).F).astype(complex)
+    squares = np.linalg.eigvals(system.equation(Omega, 0.0).F).astype(complex)
     found = np.sqrt(squares)
     return np.asarray(found[np.lexsort((found.imag, found.real))])
 
 
 def frequency_names(system: System, count: int) -> tuple[str, ...]:
-    """What the system calls its natural frequencies, ascending: "1", "2", ... if it does not."""
+    """What the system calls its natural frequencies, ascending: "1", "2", ... if it does not.
+
+    Raises
+    ------
+    ValueError
+        It has other than `count` names.
+    """
     given = getattr(system, "frequency_names", None)
-    return tuple(given) if given is not None else tuple(str(k) for k in range(1, count + 1))
+    if given is None:
+        return tuple(str(k) for k in range(1, count + 1))
+    if len(given) != count:
+        raise ValueError(f"frequency_names: must be {count}, one a frequency; got {len(given)}")
+    return tuple(map(str, given))
+
+
+def singular_Omega(system: Any, low: float, high: float) -> Float:
+    """Forcing frequencies between `low` and `high` where the system has no equation, ascending."""
+    if not hasattr(system, "singular_Omega"):
+        return np.empty(0)
+    return np.sort(np.asarray(system.singular_Omega(low, high), float))
 
 
 @dataclass(frozen=True, eq=False)

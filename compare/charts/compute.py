@@ -4,6 +4,7 @@ import math
 import time
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -11,28 +12,34 @@ import numpy as np
 from numpy.typing import NDArray
 
 from compare.charts import surface
+from compare.charts.axis import MAX_POINTS, Axis, from_smooth
+from compare.charts.grid import Cells, from_series, on_mesh, one_by_one, reasons
 from compare.charts.nodes import ROUTES, Nodes, solved
-from compare.charts.parameters import MOST_POINTS, Axis, Beam, Family
-from compare.charts.result import Chart, Omega_and_eta, from_smooth, ln_R, on_grid
+from compare.charts.result import Chart
+from compare.charts.scenario import Scenario, scenario
 from compare.jobs.workers import MapLike, mapper
-from hill import checks
+from hill import System, checks
 
 Float = NDArray[np.floating[Any]]
+Stage = Callable[[str, int, int], Any]
 
 CHECKS = 40
 """Random points at which every chart is held against direct evaluation."""
 
-FINE = 2000
+NOMINAL_POINTS = 2000
 """Points that every chart is taken to have: tongues are followed on its series."""
 
+MAX_DIRECT = 2_000_000
+"""Points without a series that are evaluated one by one: an hour or more on one core."""
+
 # The charts' own smallest useful tolerance: P itself is known to about 1e-13.
-LEAST_TOLERANCE = 1e-13
+MIN_TOLERANCE = 1e-13
 # Beyond, T is not known to a digit anywhere.
-MOST_TOLERANCE = 1e-2
+MAX_TOLERANCE = 1e-2
 
 
 def chart(
-    beam: Beam,
+    system: System,
     axes: Sequence[Axis | tuple[str, float, float, int]],
     *,
     forcing: Mapping[str, float] | None = None,
@@ -41,15 +48,16 @@ def chart(
     workers: int | MapLike = 1,
     resume: str | Path | None = None,
     progress: Callable[[int], Any] | None = None,
+    stage: Stage | None = None,
 ) -> Chart:
-    """T over two or more parameters of a beam and its forcing.
+    """T over two or more parameters of a system and its forcing.
 
     Parameters
     ----------
-    beam : UniformBeam or SteppedBeam
-        What is not varied of it stays as it is.
+    system : System
+        A beam, a `MatrixSystem`, anybody's. What is not varied of it stays as it is.
     axes : sequence of Axis or (name, low, high, count)
-        x, y, and more. Any parameter of the beam, `Omega`, `gamma` or `eta`.
+        x, y, and more. Any parameter of the system, `Omega`, `gamma` or `eta`.
     forcing : mapping, optional
         Values of `Omega`, `gamma` and `eta` that are not axes; `eta` is 0 by default.
     route : {"both", "floquet", "hill"}, optional
@@ -62,6 +70,9 @@ def chart(
         A file of finished nodes: read if it is there, and kept up to date while nodes arrive.
     progress : callable, optional
         Called with the number of nodes just finished, after they are on disk.
+    stage : callable, optional
+        Called with what is being done, how much of it is done, and of how much: "nodes", of those
+        asked for so far; "thousandths of the range"; both grow until the chart is done.
 
     Returns
     -------
@@ -71,106 +82,112 @@ def chart(
     ------
     ValueError
         Parameters out of range, an axis that is not one, a resume file of another chart; a series
-        that misses its own bound at one of the random points.
+        that misses its own bound at one of the random points; too many points without a series.
     """
     started = time.perf_counter()
-    drawn = tuple(a if isinstance(a, Axis) else Axis(*a) for a in axes)
-    if not drawn:
+    if not axes:
         raise ValueError("axes: must name at least one parameter")
+    drawn = tuple(axis if isinstance(axis, Axis) else Axis(*axis) for axis in axes)
     points = math.prod(axis.count for axis in drawn)
-    if points > MOST_POINTS:
-        raise ValueError(f"points = {points:,}: must be at most {MOST_POINTS:,} in all")
-    family = Family(beam, dict(forcing or {}))
-    family.check(drawn)
+    if points > MAX_POINTS:
+        raise ValueError(f"points = {points:,}: must be at most {MAX_POINTS:,} in all")
+    wanted = scenario(system, drawn, forcing)
     if route not in ROUTES:
         raise ValueError(f"route = {route!r}: must be one of {', '.join(ROUTES)}")
-    checks.between("tolerance", tolerance, LEAST_TOLERANCE, MOST_TOLERANCE)
+    checks.between("tolerance", tolerance, MIN_TOLERANCE, MAX_TOLERANCE)
 
-    low, high = np.array([axis.span for axis in drawn]).T
+    low, high = np.array([axis.span for axis in wanted.axes]).T
     with mapper(workers) as run:
-        sampler = Nodes(family, drawn, route, run, Path(resume) if resume else None, progress)
+        store = Path(resume) if resume else None
+        sampler = Nodes(wanted, route, run, store, progress, stage)
         fitted = surface.fit(
             sampler,
             low,
             high,
             tolerance,
-            partial(_wanted, drawn),
-            partial(_singular, drawn, family),
+            partial(_points_wanted, wanted.axes),
+            partial(_singular, wanted),
+            partial(_covered, stage) if stage else None,
         )
-    T, direct, error = _grid(fitted, drawn, family)
-    smooth, apart = sampler.sampled
-    checked, checks_made = _check(fitted, drawn, family, "hill" if route == "hill" else "floquet")
+        alone = one_by_one(fitted, wanted.axes, sampler.at, MAX_DIRECT)
+    sampled, apart = sampler.sampled
+    checked, made = _check(fitted, wanted, "hill" if route == "hill" else "floquet")
+    error, relative_error = _errors(fitted, alone)
     return Chart(
-        axes=drawn,
-        family=family,
-        T=T,
+        scenario=wanted,
+        T=_argument(fitted, alone, wanted),
         error=error,
+        relative_error=relative_error,
         checked=checked,
-        checks=checks_made,
+        checks=made,
         disagreement=sampler.disagreement if route == "both" else float("nan"),
-        sampled=from_smooth(drawn, smooth),
+        sampled=sampled,
         apart=apart,
-        direct=direct,
+        one_by_one=reasons(alone),
         resumed=sampler.resumed,
         route=route,
         surface=fitted,
+        alone=alone,
         seconds=time.perf_counter() - started,
     )
 
 
-def _wanted(axes: tuple[Axis, ...], low: Float, high: Float) -> float:
-    """Points of the grid in a rectangle of smooth coordinates, or its share of `FINE`."""
+def _covered(stage: Stage, share: float) -> None:
+    stage("thousandths of the range", round(1000 * share), 1000)
+
+
+def _points_wanted(axes: tuple[Axis, ...], low: Float, high: Float) -> float:
+    """Points of the grid in a rectangle of smooth coordinates, or its share of the nominal ones."""
     points, share = 1, 1.0
     for axis, a, b in zip(axes, low, high, strict=True):
         smooth, (start, end) = axis.to_smooth(axis.points), axis.span
         points *= int(np.count_nonzero((smooth >= a) & (smooth <= b)))
         share *= (b - a) / (end - start)
-    return max(points, share * FINE)
+    return max(points, share * NOMINAL_POINTS)
 
 
-def _singular(axes: tuple[Axis, ...], family: Family, low: Float, high: Float) -> int | None:
+def _singular(wanted: Scenario, low: Float, high: Float) -> int | None:
     """The axis to cut by where a rectangle of smooth coordinates has a pole."""
     ends = [
         sorted((float(a.from_smooth(x)), float(a.from_smooth(y))))
-        for a, x, y in zip(axes, low, high, strict=True)
+        for a, x, y in zip(wanted.axes, low, high, strict=True)
     ]
-    names = [axis.name for axis in axes]
-    found = family.singular(
+    names = wanted.names
+    found = wanted.singular(
         dict(zip(names, (e[0] for e in ends), strict=True)),
         dict(zip(names, (e[1] for e in ends), strict=True)),
     )
     return None if found is None else names.index(found)
 
 
-def _grid(
-    fitted: surface.Surface, axes: tuple[Axis, ...], family: Family
-) -> tuple[Float, int, float]:
-    """T on the whole grid, the last axis of the chart first; how many points went alone; P's error.
-
-    Of the series, if there are any; of the points alone where there are none.
-    """
-    log_R = np.full([axis.count for axis in axes], np.nan)
-    direct, worst = 0, 0.0
-    for cells in on_grid(fitted, axes, family):
-        log_R[np.ix_(*cells.chosen)] = ln_R(cells.P).reshape(cells.shape)
-        if cells.direct:
-            direct += cells.P.shape[1]
-            worst = max(
-                worst, float(np.max(cells.error, where=np.isfinite(cells.error), initial=0.0))
-            )
-    return _argument(log_R, axes, family), direct, fitted.error or worst
+def _errors(fitted: surface.Surface, alone: Sequence[Cells]) -> tuple[float, float]:
+    """P's error, absolute and over its largest coefficient; of the points alone without series."""
+    if any(piece.series is not None for piece in fitted.pieces):
+        return fitted.error, fitted.relative_error
+    worst, relative = 0.0, 0.0
+    for cells in alone:
+        there = cells.there
+        size = np.max(np.abs(cells.P[:, there]), axis=0)
+        worst = max(worst, float(np.max(cells.error[there], initial=0.0)))
+        relative = max(relative, float(np.max(cells.error[there] / size, initial=0.0)))
+    return worst, relative
 
 
-def _argument(log_R: Float, axes: tuple[Axis, ...], family: Family) -> Float:
-    """T = (Omega/pi) ln R - eta (7.1.1) on the grid, turned so that x comes last."""
-    grid = np.ix_(*(axis.points for axis in axes))
-    varied = {axis.name: x for axis, x in zip(axes, grid, strict=True)}
-    Omega, eta = Omega_and_eta(varied, family)
-    return np.asarray(np.transpose(log_R * (Omega / np.pi) - eta))
+def _argument(fitted: surface.Surface, alone: Sequence[Cells], wanted: Scenario) -> Float:
+    """T on the grid, turned so that x comes last; infinite where P is, or where there is none."""
+    T = np.full([axis.count for axis in wanted.axes], np.nan)
+    Omega, eta = on_mesh(wanted)
+    for cells in chain(from_series(fitted, wanted.axes), alone):
+        there = np.all(np.isfinite(cells.P), axis=0)
+        own = np.full(len(there), np.inf)
+        at = (cells.spread(x)[there] for x in (Omega, eta))
+        own[there] = wanted.reading.argument(cells.P[:, there], *at)
+        T[np.ix_(*cells.chosen)] = own.reshape(cells.shape)
+    return np.ascontiguousarray(T.T)
 
 
 def _check(
-    fitted: surface.Surface, axes: tuple[Axis, ...], family: Family, route: str
+    fitted: surface.Surface, wanted: Scenario, route: str
 ) -> tuple[float | None, int]:
     """Largest difference from direct evaluation at random points, and at how many of them.
 
@@ -183,16 +200,14 @@ def _check(
         It exceeds the series' own bound, which then is none.
     """
     # within what is drawn, not in the margin that tongues may reach into
-    ends = np.array([sorted(map(float, a.to_smooth(np.array([a.low, a.high])))) for a in axes])
-    low, high = ends.T
-    smooth = low + (high - low) * np.random.default_rng(0).random((CHECKS, len(axes)))
+    low, high = np.array([axis.drawn for axis in wanted.axes]).T
+    smooth = low + (high - low) * np.random.default_rng(0).random((CHECKS, len(low)))
     P, error = surface.evaluate(fitted, smooth)
     known = np.flatnonzero(np.isfinite(error))
     if not len(known):
         return None, 0
-    values = from_smooth(axes, smooth[known])
-    named = {axis.name: x for axis, x in zip(axes, values.T, strict=True)}
-    lines = solved(family, named, route)
+    values = from_smooth(wanted.axes, smooth[known])
+    lines = solved(wanted, dict(zip(wanted.names, values.T, strict=True)), route)
     own = lines[:, -2]
     apart = np.max(np.abs(P[:, known].T - lines[:, :-2]), axis=1)
     if np.any(apart > error[known] + own):

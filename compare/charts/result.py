@@ -3,20 +3,22 @@
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import chain
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from compare.charts import chebyshev, nodes, surface
-from compare.charts.parameters import Axis, Family
-from compare.charts.points import Points, solve, verdicts
-from compare.stability.roots import growth
+from compare.charts import nodes, surface
+from compare.charts.axis import Axis, to_smooth
+from compare.charts.grid import Cells, Omega_and_eta, from_series, on_mesh
+from compare.charts.scenario import Scenario
+from compare.stability.points import Points
 
 Float = NDArray[np.floating[Any]]
 
-DIRECT = 4096
-"""Points evaluated together where there is no series."""
+SAME = 1e-11
+"""Of P's largest coefficient: the routes are said to differ beyond it, however small P's bound."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,20 +27,22 @@ class Chart:
 
     Attributes
     ----------
-    axes : tuple of Axis
-        The first is the fastest to vary when drawn: x, then y.
-    family : Family
-        The beam and what is fixed.
+    scenario : Scenario
+        The system, its axes and what is fixed. The first axis is the fastest to vary when drawn: x,
+        then y.
     T : ndarray
         Characteristic argument (7.1.1), shape (..., points of y, points of x).
     error : float
         Bound on the absolute error of the interpolated coefficients of P; of those evaluated
         directly where none is interpolated.
+    relative_error : float
+        The same over P's largest coefficient, in the same rectangle or at the same point.
     checked : float or None
         Largest difference from direct evaluation at random points; never above `error`. None where
         nothing could be checked.
     checks : int
-        At how many random points.
+        At how many of 40 random points; the others have no series, or direct evaluation knows P
+        less well than the series there.
     disagreement : float
         Largest difference between the two routes at the nodes, over the largest coefficient of P;
         nan where only one route was asked.
@@ -46,37 +50,65 @@ class Chart:
         Where P was evaluated.
     apart : (nodes,) ndarray
         Difference between the two routes there, as `disagreement`.
-    direct : int
-        Grid points evaluated one by one, where no series would converge.
+    one_by_one : dict of str to int
+        Why points of the grid were evaluated without a series, and how many.
     resumed : int
         Nodes that were already on disk.
     route : str
         Who evaluated the nodes.
     surface : Surface
         The interpolant, for further use.
+    alone : tuple of Cells
+        What was evaluated one by one.
     seconds : float
         Time taken, nodes included.
     """
 
-    axes: tuple[Axis, ...]
-    family: Family
+    scenario: Scenario
     T: Float
     error: float
+    relative_error: float
     checked: float | None
     checks: int
     disagreement: float
     sampled: Float
     apart: Float
-    direct: int
+    one_by_one: dict[str, int]
     resumed: int
     route: str
     surface: surface.Surface
+    alone: tuple[Cells, ...]
     seconds: float
 
     @property
+    def axes(self) -> tuple[Axis, ...]:
+        """x, y and more."""
+        return self.scenario.axes
+
+    @property
+    def system(self) -> Any:
+        """What is charted; its varied parameters at the values that it was given with."""
+        return self.scenario.system
+
+    @property
     def nodes(self) -> int:
-        """Evaluations of P."""
+        """Evaluations of P, points of the grid among them that have no series."""
         return len(self.sampled)
+
+    @property
+    def direct(self) -> int:
+        """Grid points evaluated one by one."""
+        return sum(self.one_by_one.values())
+
+    @property
+    def shared_matrices(self) -> bool:
+        """Whether both routes were given the same matrices, so that only the solution is checked."""
+        return self.scenario.shared_matrices
+
+    @property
+    def routes_agree(self) -> bool:
+        """Whether the routes differ by no more than P's error allows; True where one was asked."""
+        return self.route != "both" or self.disagreement <= max(self.relative_error, SAME)
 
     def at(self, **values: ArrayLike) -> Points:
         """z, R, T and the verdict at any points within the axes.
@@ -89,20 +121,16 @@ class Chart:
         Raises
         ------
         ValueError
-            An axis without values, a name that is no axis, a value beyond its ends; a point on an
-            undamped longitudinal resonance.
+            An axis without values, a name that is no axis, a value beyond its ends; a point at
+            which the system has no equation, on an undamped longitudinal resonance, say.
         """
         return _at(self, values)
-
-    @cached_property
-    def _verdict(self) -> NDArray[np.str_]:
-        return _verdicts(self)
 
     def verdict(self) -> NDArray[np.str_]:
         """What is shown on the grid, like `T`: "stable", "unstable" or "undecided".
 
         Undecided next to boundaries, on undamped lines where z meet (gamma = 0 at a resonance), and
-        on a longitudinal resonance, where there is no equation.
+        on a pole, where there is no equation.
         """
         return self._verdict
 
@@ -114,54 +142,49 @@ class Chart:
         """Where on the grid neither is shown, like `T`."""
         return np.asarray(self._verdict == "undecided")
 
+    def T_error(self) -> Float:
+        """Bound on the error of `T`, like it; infinite where nothing is known.
 
-@dataclass(frozen=True, eq=False)
-class Cells:
-    """A part of the grid: which points along each axis, P (n + 1, k) there and its error (k,)."""
+        Takes longer than T itself: about 20 microseconds a point that is not shown to be stable.
+        """
+        return self._T_error
 
-    chosen: list[NDArray[np.int_]]
-    shape: tuple[int, ...]
-    P: Float
-    error: Float
-    direct: bool
+    @cached_property
+    def _verdict(self) -> NDArray[np.str_]:
+        result = np.full(self.T.T.shape, "undecided")
+        for cells, Omega, eta in self._cells():
+            own = np.full(cells.P.shape[1], "undecided")
+            # P beyond a float has a root beyond any edge
+            own[np.any(np.isinf(cells.P), axis=0)] = "unstable"
+            there = cells.there
+            own[there] = self.scenario.reading.verdicts(*self._known(cells, Omega, eta))
+            result[np.ix_(*cells.chosen)] = own.reshape(cells.shape)
+        return np.ascontiguousarray(result.T)
 
+    @cached_property
+    def _T_error(self) -> Float:
+        result = np.full(self.T.T.shape, np.inf)
+        for cells, Omega, eta in self._cells():
+            own = np.full(cells.P.shape[1], np.inf)
+            own[cells.there] = self.scenario.reading.argument_errors(*self._known(cells, Omega, eta))
+            result[np.ix_(*cells.chosen)] = own.reshape(cells.shape)
+        return np.ascontiguousarray(result.T)
 
-def on_grid(fitted: surface.Surface, axes: tuple[Axis, ...], family: Family) -> Iterator[Cells]:
-    """P on the whole grid, a piece of the surface at a time."""
-    points = [axis.points for axis in axes]
-    smooth = [axis.to_smooth(x) for axis, x in zip(axes, points, strict=True)]
-    for piece in fitted.pieces:
-        chosen = [
-            np.flatnonzero((s >= a) & (s <= b))
-            for s, a, b in zip(smooth, piece.low, piece.high, strict=True)
-        ]
-        if any(len(index) == 0 for index in chosen):
-            continue
-        shape = tuple(map(len, chosen))
-        if piece.series is None:
-            own = [x[i] for x, i in zip(points, chosen, strict=True)]
-            mesh = np.stack([m.ravel() for m in np.meshgrid(*own, indexing="ij")], axis=1)
-            P, error = one_by_one(mesh, axes, family)
-        else:
-            own = [s[i] for s, i in zip(smooth, chosen, strict=True)]
-            ends = zip(own, piece.low, piece.high, strict=True)
-            local = (np.clip((2.0 * s - a - b) / (b - a), -1.0, 1.0) for s, a, b in ends)
-            P = chebyshev.on_grid(piece.series, tuple(local))
-            P = np.concatenate([np.ones((1, *shape)), P]).reshape(len(P) + 1, -1)
-            error = np.full(P.shape[1], piece.error)
-        yield Cells(chosen, shape, P, error, piece.series is None)
+    def _cells(self) -> Iterator[tuple[Cells, Float, Float]]:
+        Omega, eta = on_mesh(self.scenario)
+        for cells in chain(from_series(self.surface, self.axes), self.alone):
+            yield cells, cells.spread(Omega), cells.spread(eta)
 
-
-def ln_R(P: Float) -> Float:
-    """Ln R of each P, (n + 1, k); infinite where there is none: the force, or P, is so."""
-    there = np.all(np.isfinite(P), axis=0)
-    result = np.full(P.shape[1], np.inf)
-    result[there] = growth(P[:, there])
-    return result
+    def _known(self, cells: Cells, Omega: Float, eta: Float) -> tuple[Float, ...]:
+        """P, its error, T, Omega and eta where P is known."""
+        there = cells.there
+        T = self.T.T[np.ix_(*cells.chosen)].ravel()[there]
+        P = np.ascontiguousarray(cells.P[:, there].T)
+        return P, cells.error[there], T, Omega[there], eta[there]
 
 
 def _at(chart: Chart, values: Mapping[str, ArrayLike]) -> Points:
-    names = [axis.name for axis in chart.axes]
+    names = chart.scenario.names
     if set(values) != set(names):
         raise ValueError(f"at: needs {', '.join(names)}; got {', '.join(values) or 'nothing'}")
     arrays = np.broadcast_arrays(*(np.asarray(values[name], float) for name in names))
@@ -172,73 +195,27 @@ def _at(chart: Chart, values: Mapping[str, ArrayLike]) -> Points:
                 f"{axis.name} = {x[beyond].flat[0]:g}: must be from {axis.low:g} to {axis.high:g}"
             )
     points = np.column_stack([x.ravel() for x in arrays])
-    smooth = to_smooth(chart.axes, points)
-    P, error = surface.evaluate(chart.surface, smooth)
+    P, error = surface.evaluate(chart.surface, to_smooth(chart.axes, points))
     without = ~np.isfinite(error)
     if np.any(without):
-        found, own = one_by_one(points[without], chart.axes, chart.family)
-        P = np.full((len(found), len(points)), np.nan) if len(P) == 1 else P
-        P[:, without], error[without] = found, own
+        found, own = directly(chart, points[without])
+        P = np.full((found.shape[1], len(points)), np.nan) if len(P) == 1 else P
+        P[:, without], error[without] = found.T, own
     if np.any(~np.isfinite(error)):
         there = points[~np.isfinite(error)][0]
         words = ", ".join(f"{name} = {x:g}" for name, x in zip(names, there, strict=True))
         raise ValueError(
             f"{words}: P is beyond a float, so fast does the solution grow"
             if np.any(np.isinf(P[:, ~np.isfinite(error)][:, 0]))
-            else f"{words}: the axial force is infinite, a longitudinal resonance"
+            else f"{words}: a coefficient is infinite, the system has no equation there"
         )
     named = dict(zip(names, points.T, strict=True))
-    Omega, eta = (np.broadcast_to(v, len(points)) for v in Omega_and_eta(named, chart.family))
-    return solve(P.T, error, Omega, eta)
+    Omega, eta = (np.broadcast_to(v, len(points)) for v in Omega_and_eta(chart.scenario, named))
+    return chart.scenario.reading.solve(P.T, error, Omega, eta)
 
 
-def _verdicts(chart: Chart) -> NDArray[np.str_]:
-    axes = chart.axes
-    result = np.full([axis.count for axis in axes], "undecided")
-    grid = dict(zip((a.name for a in axes), np.ix_(*(a.points for a in axes)), strict=True))
-    shape = result.shape
-    Omega, eta = (np.broadcast_to(v, shape) for v in Omega_and_eta(grid, chart.family))
-    for cells in on_grid(chart.surface, axes, chart.family):
-        at = np.ix_(*cells.chosen)
-        own = np.full(cells.P.shape[1], "undecided")
-        # P beyond a float has a root beyond any edge
-        own[np.any(np.isinf(cells.P), axis=0)] = "unstable"
-        there = np.all(np.isfinite(cells.P), axis=0) & np.isfinite(cells.error)
-        own[there] = verdicts(
-            np.ascontiguousarray(cells.P[:, there].T),
-            cells.error[there],
-            growth(cells.P[:, there]),
-            Omega[at].ravel()[there],
-            eta[at].ravel()[there],
-        )
-        result[at] = own.reshape(cells.shape)
-    return np.ascontiguousarray(np.transpose(result))
-
-
-def one_by_one(values: Float, axes: tuple[Axis, ...], family: Family) -> tuple[Float, Float]:
-    """P, (n + 1, k), and its error, at parameters (k, axes), where the series does not converge.
-
-    Columns of nan where there is no equation, of infinities where P is beyond a float.
-    """
-    parts = np.array_split(values, len(values) // DIRECT + 1)
-    names = [axis.name for axis in axes]
-    lines = np.vstack(
-        [nodes.solved(family, dict(zip(names, part.T, strict=True)), "floquet") for part in parts]
-    )
-    return lines[:, :-2].T, lines[:, -2]
-
-
-def Omega_and_eta(varied: Mapping[str, Float], family: Family) -> tuple[Any, Any]:
-    """Omega and eta, varied or fixed."""
-    given: dict[str, Any] = {"eta": 0.0} | dict(family.forcing) | dict(varied)
-    return given["Omega"], given["eta"]
-
-
-def to_smooth(axes: tuple[Axis, ...], values: Float) -> Float:
-    """Parameters (k, axes) in the variables in which P is smooth."""
-    return np.column_stack([a.to_smooth(x) for a, x in zip(axes, values.T, strict=True)])
-
-
-def from_smooth(axes: tuple[Axis, ...], smooth: Float) -> Float:
-    """Back again."""
-    return np.column_stack([a.from_smooth(x) for a, x in zip(axes, smooth.T, strict=True)])
+def directly(chart: Chart, points: Float) -> tuple[Float, Float]:
+    """P, (k, degree + 1), and its error at values of the axes (k, axes), not from a series."""
+    named = dict(zip(chart.scenario.names, points.T, strict=True))
+    lines = nodes.solved(chart.scenario, named, "hill" if chart.route == "hill" else "floquet")
+    return lines[:, :-2], lines[:, -2]

@@ -20,22 +20,26 @@ Float = NDArray[np.floating[Any]]
 Sampler = Callable[[Float], tuple[Float, Float]]
 """Smooth coordinates (k, axes) to coefficients of P (k, n + 1), highest first, and their errors."""
 
-START, MOST = 9, 129
+FIRST_POINTS, MAX_POINTS = 9, 129
 """Points an axis at first, and at most before the rectangle is cut; 2^k + 1, so that they nest."""
 
 RESOLVED = 1e-2
 """A series whose last coefficients are below this share of the largest value has begun to decay."""
 
-RANGE = 1e6
+MAX_RANGE = 1e6
 """A series' error is one for the whole piece: where P's largest coefficient varies by more than
 this, it would say nothing where P is small."""
 
-DEEPEST = 7
+MAX_CUTS = 7
 """Cuts of one axis; a piece is then 1/128 of the chart."""
 
 # Values at random points miss by no more than this many times the last coefficients kept, which
 # bound a geometric series' remainder where its ratio is below 3/4; tests/test_chart.py measures it.
 SAFETY = 4.0
+
+
+POLE, STEEP, SLOW = "a pole is near", "P is too steep for a series", "a series takes as many nodes"
+"""Why a rectangle has no series."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,12 +54,18 @@ class Piece:
         Chebyshev coefficients of the coefficients of P below its leading 1.
     error : float
         Bound on the error of a coefficient of P anywhere in the rectangle.
+    size : float
+        Largest coefficient of P at its nodes.
+    why : str
+        Why it has no series, where it has none.
     """
 
     low: Float
     high: Float
     series: Float | None
     error: float
+    size: float = 1.0
+    why: str = ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,6 +80,11 @@ class Surface:
         """Largest bound over the pieces that have a series."""
         return max((p.error for p in self.pieces if p.series is not None), default=0.0)
 
+    @property
+    def relative_error(self) -> float:
+        """Largest bound over the largest coefficient of P in its piece."""
+        return max((p.error / p.size for p in self.pieces if p.series is not None), default=0.0)
+
 
 def fit(
     sample: Sampler,
@@ -78,6 +93,7 @@ def fit(
     tolerance: float,
     wanted: Callable[[Float, Float], float],
     singular: Callable[[Float, Float], int | None] = lambda low, high: None,
+    covered: Callable[[float], Any] | None = None,
 ) -> Surface:
     """Cover a rectangle with series whose error is below `tolerance` times the largest |P|.
 
@@ -90,33 +106,41 @@ def fit(
     tolerance : float
         Relative to the largest coefficient of P in the piece.
     wanted : callable
-        Corners of a rectangle to the number of points that are wanted there: one that has been cut
-        is not sampled at more points than that.
+        Corners of a rectangle to the number of points that are wanted there: it is not sampled at
+        more nodes than that.
     singular : callable, optional
         Corners of a rectangle to the axis to cut by, where P has a pole in it or next to it: it
         gets no series, be the residue as small as it may.
+    covered : callable, optional
+        Called with the share of the rectangle that is done with, after each piece.
     """
     known = _Known(sample, np.asarray(low, float), np.asarray(high, float))
     pieces: list[Piece] = []
     pending = [(np.asarray(low, float), np.asarray(high, float), (0,) * len(low))]
+    share, whole = 0.0, float(np.prod(known.high - known.low))
     while pending:
         a, b, cuts = pending.pop()
-        most = wanted(a, b) if any(cuts) else np.inf
+        most = wanted(a, b)
         across = singular(a, b)
+        found: Piece | _Cut
         if across is None:
-            piece, worst = _piece(known, a, b, tolerance, most)
+            found = _piece(known, a, b, tolerance, most)
+        elif most < FIRST_POINTS ** len(a):
+            found = Piece(a, b, None, np.inf, why=POLE)
         else:
-            few = most < START ** len(a)
-            piece, worst = (Piece(a, b, None, np.inf) if few else None), across
-        if piece is not None:
-            pieces.append(piece)
-        elif cuts[worst] >= DEEPEST:
-            pieces.append(Piece(a, b, None, np.inf))
+            found = _Cut(across, POLE)
+        if isinstance(found, _Cut) and cuts[found.axis] >= MAX_CUTS:
+            found = Piece(a, b, None, np.inf, why=found.why)
+        if isinstance(found, Piece):
+            pieces.append(found)
+            share += float(np.prod(b - a)) / whole
+            if covered is not None:
+                covered(share)
         else:
-            middle = 0.5 * (a[worst] + b[worst])
-            deeper = tuple(c + (k == worst) for k, c in enumerate(cuts))
+            k = found.axis
+            deeper = tuple(c + (j == k) for j, c in enumerate(cuts))
             left, right = b.copy(), a.copy()
-            left[worst] = right[worst] = middle
+            left[k] = right[k] = 0.5 * (a[k] + b[k])
             pending += [(right, b, deeper), (a, left, deeper)]
     return Surface(tuple(pieces), len(known.values))
 
@@ -148,25 +172,34 @@ def to_local(piece: Piece, smooth: Float) -> Float:
     return np.clip((2.0 * smooth - piece.low - piece.high) / (piece.high - piece.low), -1.0, 1.0)
 
 
+@dataclass(frozen=True)
+class _Cut:
+    """A rectangle is to be cut across this axis, and why it has no series as it is."""
+
+    axis: int
+    why: str
+
+
 def _piece(
     known: "_Known", a: Float, b: Float, tolerance: float, most: float
-) -> tuple[Piece | None, int]:
+) -> "Piece | _Cut":
     """A series that has decayed, or the axis along which it has not.
 
     Without a series where that would take more than `most` nodes.
     """
     axes = len(a)
-    counts = [START] * axes
+    counts = [FIRST_POINTS] * axes
     over = tuple(range(1, axes + 1))
     before: list[tuple[int, float]] = [(0, np.inf)] * axes
     while np.prod(counts) <= most:
         grid = [_nodes(a[k], b[k], counts[k]) for k in range(axes)]
         values, errors = known.on(grid)
         if not np.all(np.isfinite(values)):
-            return None, _across_pole(values)
+            beyond = np.any(np.isinf(values))
+            return _Cut(_across_pole(values), STEEP if beyond else POLE)
         sizes = np.maximum(np.max(np.abs(values), axis=0), 1.0)
-        if sizes.max() > RANGE * sizes.min():
-            return None, _steepest(sizes)
+        if sizes.max() > MAX_RANGE * sizes.min():
+            return _Cut(_steepest(sizes), STEEP)
         series = chebyshev.coefficients(values, over)
         size = max(1.0, float(np.max(np.abs(values))))
         tails = np.array([chebyshev.decay(series, axis) for axis in over])
@@ -179,23 +212,25 @@ def _piece(
             lebesgue = float(np.prod([2.0 / np.pi * np.log(n) + 1.0 for n in counts]))
             left = float(np.sum(np.abs(series))) - float(np.sum(np.abs(trimmed)))
             error = SAFETY * float(tails.sum()) + max(left, 0.0) + lebesgue * float(errors.max())
-            return Piece(a, b, trimmed, error), 0
+            return Piece(a, b, trimmed, error, size)
         shares = tails / size
         for k in np.flatnonzero(short):
-            if _expected(counts[k], shares[k], before[k], allowed / size) > MOST:
-                return None, int(k)
+            if _expected(counts[k], shares[k], before[k], allowed / size) > MAX_POINTS:
+                return _Cut(int(k), SLOW)
             before[k] = (counts[k], float(shares[k]))
-        counts = [2 * n - 1 if s and n < MOST else n for n, s in zip(counts, short, strict=True)]
-    return Piece(a, b, None, np.inf), 0
+        counts = [
+            2 * n - 1 if s and n < MAX_POINTS else n for n, s in zip(counts, short, strict=True)
+        ]
+    return Piece(a, b, None, np.inf, why=SLOW)
 
 
 def _expected(n: int, tail: float, before: tuple[int, float], allowed: float) -> float:
     """Points an axis after which a series that decays as it did lately will have decayed.
 
     A series that has not begun to decay (an oscillation not yet resolved) gets its next points;
-    one that decays too slowly for `MOST` is given up before they are spent.
+    one that decays too slowly for `MAX_POINTS` is given up before they are spent.
     """
-    if n >= MOST:
+    if n >= MAX_POINTS:
         return np.inf
     if tail > RESOLVED or not tail < before[1] < np.inf:
         return n

@@ -9,24 +9,25 @@ from typing import Any
 
 import numpy as np
 from rich import box
-from rich.console import Console
-from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 from rich.table import Table
 
-from compare.charts import files, specification
-from compare.charts.compute import chart
-from compare.charts.draw import NO_PICTURES, QUANTITIES, picture
+from compare import chart_files
+from compare.chart_picture import NO_PICTURES, QUANTITIES, Mark, picture
+from compare.charts.compute import CHECKS, chart
 from compare.charts.nodes import ROUTES
 from compare.charts.result import Chart
-from compare.commands.terminal import terminal
+from compare.commands import asked
+from compare.commands.terminal import stages, terminal
+from compare.edges.curves import Curve, boundaries
+from compare.edges.instabilities import Instability, instabilities
+from compare.edges.interpolated import axes_of
+from compare.edges.on_chart import ORDERS, tongues
+from compare.edges.tracer import RANGE, TIP, Tongue
+from compare.edges.unnamed import Region, unnamed
 from compare.jobs.cluster import connect
 from compare.output import check_apart, check_writable, write_whole
-from compare.tongues.boundaries import Tongue
-from compare.tongues.curves import Curve, curves
-from compare.tongues.instabilities import Instability, instabilities
-from compare.tongues.on_chart import ORDERS, axes_of, tongues
-from compare.tongues.unnamed import Region, unnamed
-from hill import checks
+from compare.report.tables import all_rows
+from hill import UniformBeam, checks
 
 SUMMARY = "chart the characteristic argument T over two parameters or more"
 EPILOG = """\
@@ -39,17 +40,19 @@ examples:
 A chart of Omega and one other parameter has tongues: --tongues lists them, and a picture draws
 and lists them. On a picture of two others the boundaries are drawn.
 
-The beam is the report's (Table 1, or Table 2 with --beam stepped) but for what --set changes.
-mine.toml:
+Without a file the system is the report's beam (Table 1, or Table 2 with --beam stepped) but for
+what --set changes. A file is the one that `verify system` takes, of anybody's system, and may have
+the axes too:
 
-  [beam]
-  kind = "uniform"
-  T0 = 15.0
+  kind = "matrices"
+  [system]
+  F = [[2.0, -1.0], [-1.0, 2.0]]
+  G = [[1.0, 0.0], [0.0, 1.0]]
   [forcing]
   eta = 0.01
   [[axis]]
   name = "Omega"
-  low = 0.35
+  low = 0.5
   high = 6.0
   count = 1000
   [[axis]]
@@ -61,16 +64,12 @@ mine.toml:
 exit status: 0 done; 1 the routes disagree beyond the chart's error; 2 wrong usage or input."""
 
 PICTURES = (".png", ".svg")
-SUFFIXES = (*PICTURES, ".npz", ".csv")
+SUFFIXES = (*PICTURES, ".npz", ".json", ".csv")
 
 
 def configure(p: argparse.ArgumentParser) -> None:
     """Options of the command."""
-    p.add_argument("file", nargs="?", type=Path, metavar="FILE.toml", help="what to chart")
-    p.add_argument("--beam", choices=tuple(specification.BEAMS))
-    p.add_argument(
-        "--set", action="append", default=[], metavar="NAME=VALUE", help="a parameter; repeatable"
-    )
+    asked.configure(p)
     for axis in ("x", "y", "also"):
         p.add_argument(
             f"--{axis}",
@@ -78,7 +77,7 @@ def configure(p: argparse.ArgumentParser) -> None:
             metavar=("NAME", "LOW", "HIGH", "COUNT"),
             help="an axis" if axis != "also" else "a third axis (for .npz)",
         )
-    p.add_argument("--output", type=Path, metavar="FILE", help="chart.png, .svg, .npz or .csv")
+    p.add_argument("--output", type=Path, metavar="FILE", help="chart.png, .svg, .npz, .json, .csv")
     p.add_argument(
         "--show",
         choices=QUANTITIES,
@@ -104,52 +103,58 @@ def configure(p: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Run it; return the exit status."""
-    if options.file and options.beam:
-        raise ValueError(f"--beam {options.beam}: {options.file} says which beam; leave it out")
-    base = specification.from_file(options.file) if options.file else None
-    axes = [axis for axis in (options.x, options.y, options.also) if axis]
-    wanted = specification.from_words(options.beam or "uniform", options.set, axes, base)
+    typed = [axis for axis in (options.x, options.y, options.also) if axis]
+    wanted = asked.with_axes(asked.asked(options), typed, options.set)
+    if not wanted.axes and options.file:
+        raise ValueError(f"{options.file}: has no [[axis]]; write axes there, or give --x and --y")
     _check_files(options)
-    _check_wanted(options, [axis.name for axis in wanted.axes])
-    with _bar() as bar:
-        task = bar.add_task("nodes", total=None)
-        with _workers(options) as workers:
-            result = chart(
-                wanted.beam,
-                wanted.axes,
-                forcing=wanted.forcing,
-                route=options.route,
-                tolerance=options.tolerance,
-                workers=workers,
-                resume=options.resume,
-                progress=lambda count: bar.advance(task, count),
-            )
-        suffix = options.output.suffix if options.output else ""
-        boundaries: Sequence[Tongue | Curve] = ()
-        nameless: tuple[Region, ...] = ()
-        found: tuple[Instability, ...] = ()
-        has_tongues = len(result.axes) == 2 and "Omega" in {a.name for a in result.axes}
-        drawn = suffix in PICTURES and options.show == "T"
-        if options.tongues or (has_tongues and drawn):
-            task = bar.add_task("resonances followed", total=None)
-            order = checks.count("order", options.order, least=1)
-            own = tongues(result, order, progress=lambda _done, _all: bar.advance(task))
-            found, boundaries = instabilities(result, own), own
-            nameless = unnamed(result, own)
-        elif drawn and len(result.axes) == 2:
-            bar.add_task("boundaries", total=None)
-            boundaries = curves(result)
+    _check_wanted(options, [name for name, *_ in wanted.axes])
+    suffix = options.output.suffix if options.output else ""
+    with stages() as stage, _workers(options) as workers:
+        result = chart(
+            wanted.system,
+            wanted.axes,
+            forcing=wanted.forcing,
+            route=options.route,
+            tolerance=options.tolerance,
+            workers=workers,
+            resume=options.resume,
+            stage=stage,
+        )
+        stage("the verdict of every point", 0, 0)
+        result.verdict()
+        edges, found, nameless = _edges(result, options, suffix, stage)
         if options.output is not None:
-            write_whole(options.output, _content(result, suffix, boundaries, options.show))
+            stage("writing", 0, 0)
+            title = wanted.title
+            write_whole(options.output, _content(result, suffix, edges, found, options.show, title))
         if options.tongues is not None:
-            write_whole(options.tongues, files.tongues_csv(found, axes_of(result)[1].name))
+            other = axes_of(result)[1].name
+            write_whole(options.tongues, chart_files.tongues_csv(result, found, other))
     if found:
         console = terminal()
         console.print(_listed(found, axes_of(result)[1].name, console.width))
-    for line in (*describe(result), *map(_told, nameless)):
+    for line in (*describe(result), *_ended(found), *map(_told, nameless)):
         print(line)
-    # P's error is absolute, the disagreement relative to P's largest coefficient, 1 or more
-    return int(options.route == "both" and result.disagreement > max(result.error, 1e-11))
+    return int(not result.routes_agree)
+
+
+def _edges(
+    result: Chart, options: argparse.Namespace, suffix: str, stage: Callable[[str, int, int], None]
+) -> tuple[Sequence[Tongue | Curve], tuple[Instability, ...], tuple[Region, ...]]:
+    """Lines to draw, the instabilities that they are of, and what has no name."""
+    two = len(result.axes) == 2
+    has_tongues = two and "Omega" in result.scenario.names
+    drawn = suffix in PICTURES and options.show == "T"
+    if options.tongues or (has_tongues and (drawn or suffix == ".json")):
+        order = checks.count("order", options.order, least=1)
+        own = tongues(result, order, progress=lambda k, n: stage("resonances followed", k, n))
+        stage("their widths", 0, 0)
+        return own, instabilities(result, own), unnamed(result, own)
+    if drawn and two:
+        stage("boundaries", 0, 0)
+        return boundaries(result), (), ()
+    return (), (), ()
 
 
 def _check_files(options: argparse.Namespace) -> None:
@@ -191,24 +196,35 @@ def _workers(options: argparse.Namespace) -> Iterator[Any]:
             yield cluster
 
 
-def _bar() -> Progress:
-    console = Console(stderr=True)
-    return Progress(
-        SpinnerColumn(),
-        TextColumn("{task.completed:.0f} {task.description}"),
-        TimeElapsedColumn(),
-        console=console,
-        transient=True,
-        disable=not console.is_terminal,
-    )
-
-
-def _content(result: Chart, suffix: str, boundaries: Sequence[Any], show: str) -> bytes:
+def _content(
+    result: Chart,
+    suffix: str,
+    edges: Sequence[Tongue | Curve],
+    found: Sequence[Instability],
+    show: str,
+    title: str,
+) -> bytes:
     if suffix == ".npz":
-        return files.npz(result)
+        return chart_files.npz(result)
     if suffix == ".csv":
-        return files.as_csv(result)
-    return picture(result, boundaries, suffix[1:], show)
+        return chart_files.as_csv(result)
+    if suffix == ".json":
+        return chart_files.as_json(result, found)
+    marks = _printed(result)
+    return picture(result, edges, suffix[1:], show, title=title, marks=marks, marks_label="printed")
+
+
+def _printed(result: Chart) -> list[Mark]:
+    """The printed rows of Table 1 or 2 that lie on a chart of the report's own beam."""
+    if set(result.scenario.names) != {"Omega", "gamma"} or result.scenario.forcing.get("eta"):
+        return []
+    table = 1 if isinstance(result.system, UniformBeam) else 2
+    printed = all_rows((table,))
+    own = [row for row in printed if row.beam(getattr(result.system, "modes", 0) or 2) == result.system]
+    if len(own) < len(printed):
+        return []
+    at = [[float(getattr(row, axis.name)) for axis in result.axes] for row in printed]
+    return [Mark(x, y, row.T > 0.0) for (x, y), row in zip(at, printed, strict=True)]
 
 
 def describe(result: Chart) -> list[str]:
@@ -220,18 +236,34 @@ def describe(result: Chart) -> list[str]:
         + (f" ({result.resumed} of them were on disk)" if result.resumed else "")
         + f"; {_share(unstable)} unstable, {_share(undecided)} undecided, T at most "
         f"{np.max(result.T):.5f}.",
-        f"P's coefficients are known to {result.error:.0e}; "
-        + (
-            "none of them could be checked at random points."
-            if result.checked is None
-            else f"at {result.checks} random points they are off by {result.checked:.0e} at most."
-        ),
+        f"P is known to {result.relative_error:.0e} of its largest coefficient; {_checked(result)}.",
     ]
-    if result.direct:
-        lines.append(f"{result.direct} points, near a longitudinal resonance, one by one.")
+    lines += [f"One by one: {count} points, where {why}." for why, count in result.one_by_one.items()]
     if result.route == "both":
-        lines.append(f"The two routes differ by {result.disagreement:.0e} of P at the nodes.")
+        lines.append(
+            f"The two routes differ by {result.disagreement:.0e} of P at the nodes"
+            + (", with the same matrices." if result.shared_matrices else ".")
+        )
     return lines
+
+
+def _checked(result: Chart) -> str:
+    """What the random points say of the series."""
+    if result.checked is not None:
+        few = f"at {result.checks} of {CHECKS}" if result.checks < CHECKS else f"at {CHECKS}"
+        return f"{few} random points the series is off by {result.checked:.0e} at most"
+    if result.one_by_one and result.direct == result.T.size:
+        return "there is no series to be checked"
+    return f"the series could be checked at none of {CHECKS} random points"
+
+
+def _ended(found: Sequence[Instability]) -> Iterator[str]:
+    """The tongues that go no further, and why, where that is not plain."""
+    for i in found:
+        ends = ((i.tongue.begins, "begins", 0), (i.tongue.ends, "ends", -1))
+        for why, word, at in ends:
+            if why not in (RANGE, TIP):
+                yield f"{i.resonance.name} {word} at {i.tongue.y[at]:.5g}: {why}."
 
 
 def _told(region: Region) -> str:

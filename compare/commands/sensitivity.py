@@ -12,8 +12,8 @@ from rich import box
 from rich.console import Console
 from rich.table import Table
 
-from compare.charts import specification
-from compare.charts.parameters import Beam, Family
+from compare.charts.scenario import scenario
+from compare.commands import asked
 from compare.commands.terminal import terminal, working
 from compare.output import check_writable, write_whole
 from floquet import BeamSensitivities, beam_sensitivities
@@ -40,10 +40,7 @@ RESONANCE = Resonance(1, 0)
 
 def configure(p: argparse.ArgumentParser) -> None:
     """Options of the command."""
-    p.add_argument("--beam", choices=tuple(specification.BEAMS), default="uniform")
-    p.add_argument(
-        "--set", action="append", default=[], metavar="NAME=VALUE", help="a parameter; repeatable"
-    )
+    asked.configure(p)
     p.add_argument("--format", choices=FORMATS, help="text, or what --output's suffix says (.json)")
     p.add_argument(
         "--output", type=Path, metavar="FILE", help="write there instead of the terminal"
@@ -52,24 +49,25 @@ def configure(p: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Run it; return the exit status."""
-    wanted = specification.from_words(options.beam, options.set, [])
+    wanted = asked.asked(options)
     if options.output is not None:
         check_writable(options.output)
-    beam = wanted.beam
-    forcing = {"gamma": GAMMA, "eta": 0.0} | wanted.forcing
-    if "Omega" not in forcing:
-        forcing["Omega"] = _resonant(beam)
-    Family(beam, forcing).check(())
+    forcing = {"eta": 0.0} | wanted.forcing
+    if not options.file:
+        forcing = {"gamma": GAMMA} | forcing
+        if "Omega" not in forcing:
+            forcing["Omega"] = _resonant(wanted.system)
+    scenario(wanted.system, (), forcing)
     with working("differentiating over one period"):
-        found = beam_sensitivities(beam, **forcing)
+        found = beam_sensitivities(wanted.system, **forcing)
     suffix = options.output.suffix[1:] if options.output else ""
     if (options.format or suffix) == "json":
-        _write(json.dumps(content(options.beam, found), indent=2) + "\n", options.output)
+        _write(json.dumps(content(wanted.kind, found), indent=2) + "\n", options.output)
     elif options.output is None:
-        show(options.beam, found, terminal())
+        show(wanted.kind, found, terminal())
     else:
         buffer = io.StringIO()
-        show(options.beam, found, Console(file=buffer, width=100))
+        show(wanted.kind, found, Console(file=buffer, width=100))
         write_whole(options.output, buffer.getvalue())
     return 0
 
@@ -116,7 +114,7 @@ def content(kind: str, found: BeamSensitivities) -> dict[str, Any]:
     }
 
 
-def _resonant(beam: Beam) -> float:
+def _resonant(beam: Any) -> float:
     Omega = RESONANCE.Omega(beam.natural_frequencies().astype(complex))
     if not np.isfinite(Omega) or Omega <= 0.0:
         raise ValueError("Omega: has no value; this beam has no omega_(B) + omega_(1), set Omega")

@@ -9,10 +9,10 @@ from rich.console import Console
 
 from compare import system_file
 from compare.both_routes import crosscheck
+from compare.commands.asked import settings
 from compare.commands.terminal import terminal, working
 from compare.crosscheck_text import FORMATS, WRITERS, Subject, text
 from compare.output import check_writable, write_whole
-from hill import checks
 from hill.system import frequency_names, natural_frequencies, parameter_values
 
 SUMMARY = "cross-check a system of one's own, given in a file"
@@ -101,24 +101,3 @@ def run(options: argparse.Namespace) -> int:
     else:
         write_whole(options.output, content)
     return int(not result.routes_agree)
-
-
-def settings(words: list[str]) -> dict[str, float]:
-    """NAME=VALUE as typed.
-
-    Raises
-    ------
-    ValueError
-        Words that are not of this form.
-    """
-    found = {}
-    for word in words:
-        name, equals, value = word.partition("=")
-        if not equals or not name:
-            raise ValueError(f"--set {word}: must be NAME=VALUE")
-        try:
-            number = float(value)
-        except ValueError:
-            raise ValueError(f"--set {word}: {value!r} is not a number") from None
-        found[name] = number if number == float("inf") else checks.number(name, number)
-    return found

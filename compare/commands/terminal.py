@@ -51,6 +51,38 @@ def progress(what: str, total: int) -> Iterator[Callable[[object], None]]:
 
 
 @contextmanager
+def stages() -> Iterator[Callable[[str, int, int], None]]:
+    """A bar for one thing after another; yields what says which, how much of it, and of how much.
+
+    Of "thousandths of the range" the share is told beside the nodes.
+    """
+    console = Console(stderr=True)
+    bar = Progress(
+        SpinnerColumn(),
+        TextColumn("{task.description}"),
+        BarColumn(),
+        TextColumn("{task.fields[count]}"),
+        TimeElapsedColumn(),
+        console=console,
+        transient=True,
+        disable=not console.is_terminal,
+    )
+    task = bar.add_task("beginning", total=None, count="")
+    share = ""
+
+    def stage(what: str, done: int, total: int) -> None:
+        nonlocal share
+        if what == "thousandths of the range":
+            share = f", {done / 10:.0f}% of the range"
+            return
+        count = f"{done} of {total}" + (share if what == "nodes" else "") if total else ""
+        bar.update(task, description=what, completed=done, total=total or None, count=count)
+
+    with bar:
+        yield stage
+
+
+@contextmanager
 def working(what: str) -> Iterator[None]:
     """A line on the standard error, with the seconds, while there are no steps to count."""
     console = Console(stderr=True)

@@ -29,8 +29,23 @@ DEGREES = (8, 16, 32, 64, 128, 256)
 GRID = 241
 
 
+BESIDE_POLE = "a pole of the system is too near"
+TOO_STEEP = "P cannot be interpolated about it"
+"""Why P is not followed along a line."""
+
+
 class NotSmooth(ValueError):
-    """P cannot be interpolated on a line: a longitudinal resonance is on it, or too near."""
+    """P cannot be interpolated on a line: a pole is on it or too near, or P is too steep.
+
+    Attributes
+    ----------
+    why : str
+        In a few words.
+    """
+
+    def __init__(self, message: str, why: str = TOO_STEEP) -> None:
+        super().__init__(message)
+        self.why = why
 
 
 @dataclass(frozen=True, eq=False)

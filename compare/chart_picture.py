@@ -1,28 +1,19 @@
-"""A chart as a picture: T as colour, boundaries as lines, tongues named, printed rows as marks."""
+"""A chart as a picture: T as colour, boundaries as lines, tongues named, marks on top."""
 
 import io
+import re
 from collections.abc import Sequence
+from dataclasses import dataclass
+from textwrap import wrap
 from typing import Any
 
 import numpy as np
 
 from compare.charts.result import Chart
-from compare.report.tables import all_rows
-from compare.tongues.boundaries import Tongue
-from compare.tongues.curves import Curve
-from hill import SteppedBeam, UniformBeam
+from compare.edges.curves import Curve
+from compare.edges.tracer import Tongue
+from hill.averaging import Resonance
 
-SYMBOLS = {
-    "Omega": r"$\Omega$",
-    "gamma": r"$\gamma$",
-    "eta": r"$\eta$",
-    "T0": r"$T_0$",
-    "K_theta": r"$K_\theta$",
-    "xi_G": r"$\xi_G$",
-    "xi_c": r"$\xi_c$",
-    "omega_L": r"$\omega_L$",
-    "g": r"$g$",
-}
 STYLE: Any = {
     "font.family": "serif",
     "mathtext.fontset": "cm",
@@ -32,16 +23,40 @@ STYLE: Any = {
 }
 
 
+GREEK = (
+    "alpha beta gamma delta epsilon zeta eta theta kappa lambda mu nu xi rho sigma tau phi chi psi "
+    "omega Gamma Delta Theta Lambda Xi Sigma Phi Psi Omega"
+).split()
+
+TITLE_WIDTH = 104
+"""Characters of a title's line: the picture is as wide."""
+
 NO_PICTURES = 'pictures need matplotlib: pip install "floquet-crosscheck[plot]"'
 
 QUANTITIES = ("T", "disagreement")
 
-LEAST = 1e-17
+MIN_DISAGREEMENT = 1e-17
 """Where the routes agree to the last bit, a disagreement is drawn as this."""
 
 
+@dataclass(frozen=True)
+class Mark:
+    """A point to be marked: filled where it is said to be unstable."""
+
+    x: float
+    y: float
+    unstable: bool
+
+
 def picture(
-    chart: Chart, boundaries: Sequence[Tongue | Curve], kind: str, quantity: str = "T"
+    chart: Chart,
+    boundaries: Sequence[Tongue | Curve],
+    kind: str,
+    quantity: str = "T",
+    *,
+    title: str = "",
+    marks: Sequence[Mark] = (),
+    marks_label: str = "marked",
 ) -> bytes:
     """The chart as PNG or SVG.
 
@@ -53,6 +68,11 @@ def picture(
     kind : {"png", "svg"}
     quantity : {"T", "disagreement"}, optional
         T over the chart, or how far the two routes differ at its nodes.
+    title : str, optional
+        What the system is called; its type where nothing is said.
+    marks : sequence of Mark, optional
+    marks_label : str, optional
+        What the legend calls them.
 
     Raises
     ------
@@ -80,11 +100,11 @@ def picture(
                 axes.plot(along, across, color="black", linewidth=0.6)
         if quantity == "T":
             _name(axes, chart, [b for b in boundaries if isinstance(b, Tongue)])
-            _marks(axes, chart)
+            _legend(axes, chart, _marked(axes, chart, marks, marks_label))
         axes.set(xlim=(x.low, x.high), ylim=(y.low, y.high))
-        axes.set_xlabel(SYMBOLS.get(x.name, x.name))
-        axes.set_ylabel(SYMBOLS.get(y.name, y.name))
-        axes.set_title(_title(chart), fontsize=8, loc="left")
+        axes.set_xlabel(symbol(x.name))
+        axes.set_ylabel(symbol(y.name))
+        axes.set_title(_title(chart, title), fontsize=8, loc="left")
         buffer = io.BytesIO()
         metadata = {"Date": None} if kind == "svg" else {"Software": None}
         figure.savefig(buffer, format=kind, dpi=200, metadata=metadata)
@@ -100,7 +120,7 @@ def _lines(boundary: Tongue | Curve, x: str) -> list[tuple[Any, Any]]:
 
 
 def _growth(figure: Any, axes: Any, chart: Chart) -> None:
-    """T as colour, white where the beam is stable."""
+    """T as colour, white where the system is stable."""
     from matplotlib.colors import LogNorm
 
     x, y = chart.axes
@@ -118,10 +138,9 @@ def _growth(figure: Any, axes: Any, chart: Chart) -> None:
             rasterized=True,
         )
         figure.colorbar(shown, ax=axes, pad=0.015, label="$T$, twice the growth exponent")
-    _states(axes, chart)
 
 
-def _states(axes: Any, chart: Chart) -> None:
+def _legend(axes: Any, chart: Chart, marks: list[Any]) -> None:
     """Where no verdict is shown, and where T is beyond a float or there is no equation."""
     from matplotlib.colors import ListedColormap
     from matplotlib.patches import Patch
@@ -130,10 +149,10 @@ def _states(axes: Any, chart: Chart) -> None:
     infinite = np.isinf(chart.T)
     found = (
         (chart.undecided() & ~infinite, "undecided", "0.55"),
-        (chart.undecided() & infinite, "longitudinal resonance", "tab:orange"),
+        (chart.undecided() & infinite, "no equation", "tab:orange"),
         (chart.unstable() & infinite, "growth beyond a float", "tab:red"),
     )
-    patches = [Patch(fc="white", ec="black", lw=0.4, label="stable")]
+    handles: list[Any] = [Patch(fc="white", ec="black", lw=0.4, label="stable")]
     for where, label, colour in found:
         if np.any(where):
             axes.imshow(
@@ -145,13 +164,14 @@ def _states(axes: Any, chart: Chart) -> None:
                 interpolation="none",
                 rasterized=True,
             )
-            patches.append(Patch(fc=colour, ec="none", label=label))
-    if len(patches) > 1:
+            handles.append(Patch(fc=colour, ec="none", label=label))
+    handles += marks
+    if len(handles) > 1:
         axes.legend(
-            handles=patches,
+            handles=handles,
             loc="upper left",
             bbox_to_anchor=(0.0, -0.12),
-            ncols=len(patches),
+            ncols=len(handles),
             fontsize=6.5,
             frameon=False,
         )
@@ -161,7 +181,7 @@ def _disagreement(figure: Any, axes: Any, chart: Chart) -> None:
     """How far the routes differ, at every node."""
     from matplotlib.colors import LogNorm
 
-    apart = np.maximum(chart.apart, LEAST)
+    apart = np.maximum(chart.apart, MIN_DISAGREEMENT)
     shown = axes.scatter(*chart.sampled.T, c=apart, s=7, cmap="magma_r", norm=LogNorm(), lw=0)
     label = "largest difference of a coefficient of $P(z)$,\nover the largest coefficient"
     figure.colorbar(shown, ax=axes, pad=0.015, label=label)
@@ -175,14 +195,14 @@ def _name(axes: Any, chart: Chart, boundaries: Sequence[Tongue]) -> None:
     for tongue in boundaries:
         pair = tongue.at(other.high) or tongue.at(float(tongue.y[-1]))
         if pair and along.low < sum(pair) / 2 < along.high:
-            tops.append((pair[1] - pair[0], sum(pair) / 2, tongue.resonance.name))
+            tops.append((pair[1] - pair[0], sum(pair) / 2, _math(tongue.resonance)))
     taken: list[float] = []
     upright = along is x
     for _, centre, name in sorted(tops, reverse=True):
         if all(abs(centre - t) > 0.03 * (along.high - along.low) for t in taken):
             taken.append(centre)
             axes.annotate(
-                _math(name),
+                name,
                 (centre, other.high) if upright else (other.high, centre),
                 xytext=(0, -3) if upright else (-3, 0),
                 textcoords="offset points",
@@ -194,38 +214,60 @@ def _name(axes: Any, chart: Chart, boundaries: Sequence[Tongue]) -> None:
             )
 
 
-def _math(name: str) -> str:
-    return "$" + name.replace("omega_(", r"\omega_{(").replace(")", ")}", name.count("omega")) + "$"
-
-
-def _marks(axes: Any, chart: Chart) -> None:
-    """The printed rows of Table 1 or 2 that lie on this chart."""
-    x, y = chart.axes
-    if {x.name, y.name} != {"Omega", "gamma"} or chart.family.forcing.get("eta", 0.0):
-        return
-    table = 1 if isinstance(chart.family.beam, UniformBeam) else 2
-    for row in all_rows((table,)):
-        if row.beam(chart.family.beam.modes) != chart.family.beam:
-            return
-        at = [getattr(row, axis.name) for axis in (x, y)]
-        if x.low <= at[0] <= x.high and y.low <= at[1] <= y.high:
-            fill = "black" if row.T > 0.0 else "white"
-            axes.plot(*at, "o", ms=2.6, mfc=fill, mec="black", mew=0.5)
-
-
-def _title(chart: Chart) -> str:
-    beam = chart.family.beam
-    kind = "stepped beam" if isinstance(beam, SteppedBeam) else "uniform beam"
-    varied = {axis.name for axis in chart.axes}
-    fixed = {k: v for k, v in vars(beam).items() if k not in varied}
-    fixed |= {k: v for k, v in chart.family.forcing.items() if k not in varied}
-    text = ", ".join(
-        f"{SYMBOLS.get(k, k.replace('_', ' '))} = {_value(v)}" for k, v in fixed.items()
+def _math(resonance: Resonance) -> str:
+    """A resonance's name as mathematics."""
+    first, second = (rf"\omega_{{({_subscript(name)})}}" for name in resonance.frequencies)
+    pair = (
+        f"2 {first}" if first == second else f"{first} {'+-'[resonance.sign < 0]} {second}"
     )
-    words = f"{kind}: {text}"
+    return f"${pair}$" if resonance.order == 1 else f"$({pair})/{resonance.order}$"
+
+
+def symbol(name: str) -> str:
+    """A parameter's name as mathematics, or as words where it is more than a letter."""
+    found = re.fullmatch(r"([A-Za-z]+?)(?:_?(\d+)|_([A-Za-z]+))?", name)
+    if found is None or not (len(found[1]) == 1 or found[1] in GREEK):
+        return name.replace("_", " ").replace("$", r"\$")
+    base, below = _letter(found[1]), found[2] or found[3]
+    return f"${base}_{{{_subscript(below)}}}$" if below else f"${base}$"
+
+
+def _letter(word: str) -> str:
+    return f"\\{word}" if word in GREEK else word
+
+
+def _subscript(word: str) -> str:
+    if len(word) == 1 or word in GREEK or word.isdigit():
+        return _letter(word)
+    kept = re.sub(r"[^A-Za-z0-9 .+-]", " ", word).replace(" ", r"\ ")
+    return rf"\mathrm{{{kept}}}"
+
+
+def _marked(axes: Any, chart: Chart, marks: Sequence[Mark], label: str) -> list[Any]:
+    """Draw the marks that lie on the chart; what the legend shows of them."""
+    x, y = chart.axes
+    handles = []
+    for unstable, fill in ((True, "black"), (False, "white")):
+        own = [
+            (m.x, m.y)
+            for m in marks
+            if m.unstable == unstable and x.low <= m.x <= x.high and y.low <= m.y <= y.high
+        ]
+        if own:
+            words = f"{label}: {'unstable' if unstable else 'stable'}"
+            look: Any = {"ms": 2.6, "mfc": fill, "mec": "black", "mew": 0.5, "label": words}
+            handles += axes.plot(*np.transpose(own), "o", **look)
+    return handles
+
+
+def _title(chart: Chart, given: str) -> str:
+    kind = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", type(chart.system).__name__)
+    text = ", ".join(f"{symbol(k)} = {_value(v)}" for k, v in chart.scenario.fixed.items())
+    words = (given or kind.lower()).replace("$", r"\$") + (f": {text}" if text else "")
     if chart.route == "both":
         words += f"; the routes differ by {chart.disagreement:.0e} of P at most"
-    return words
+        words += ", with the same matrices" if chart.shared_matrices else ""
+    return "\n".join(wrap(words, TITLE_WIDTH, break_long_words=False, break_on_hyphens=False))
 
 
 def _value(value: float) -> str:

@@ -1,6 +1,6 @@
 """Where stability ends on a chart of any two parameters: zeros of P(c), P(-c) and pairs of z.
 
-A chart of Omega has tongues, which `compare.tongues.on_chart` follows one by one, however narrow.
+A chart of Omega has tongues, which `compare.edges.on_chart` follows one by one, however narrow.
 On others the zeros are found on a grid and then moved onto the zero by Newton's method on the
 interpolant: as exact, but a strip narrower than the grid's step goes unseen, and so does what lies
 where there is no series.
@@ -15,11 +15,9 @@ from numpy.typing import NDArray
 
 from compare.charts.result import Chart
 from compare.charts.surface import evaluate
-from compare.stability.indicators import edge_function
 
 Float = NDArray[np.floating[Any]]
 
-KINDS = ("+1", "-1", "discriminant")
 GRID = 201
 """Points an axis of the grid on which signs are compared."""
 
@@ -53,8 +51,8 @@ class Curve:
     error: float
 
 
-def curves(chart: Chart) -> tuple[Curve, ...]:
-    """Boundaries on a chart of two parameters.
+def boundaries(chart: Chart) -> tuple[Curve, ...]:
+    """Where stability ends on a chart of two parameters.
 
     Raises
     ------
@@ -62,7 +60,7 @@ def curves(chart: Chart) -> tuple[Curve, ...]:
         The chart has not two axes, or contourpy (of the extra `plot`) is not installed.
     """
     if len(chart.axes) != 2:
-        raise ValueError(f"curves: need a chart of two parameters, not of {len(chart.axes)}")
+        raise ValueError(f"boundaries: need a chart of two parameters, not of {len(chart.axes)}")
     try:
         from contourpy import contour_generator
     except ImportError:
@@ -72,7 +70,7 @@ def curves(chart: Chart) -> tuple[Curve, ...]:
     s = np.linspace(0.0, 1.0, GRID)
     mesh = np.stack(np.meshgrid(s, s), axis=-1)
     found: list[Curve] = []
-    for kind in KINDS:
+    for kind in chart.scenario.reading.kinds:
         f = _function(chart, kind)
         values = f(mesh.reshape(-1, 2)).reshape(GRID, GRID)
         for line in contour_generator(s, s, np.ma.masked_invalid(values)).lines(0.0):
@@ -88,10 +86,10 @@ def _function(chart: Chart, kind: str) -> Callable[[Float], Float]:
         smooth = [axis.to_smooth(named[axis.name]) for axis in chart.axes]
         P, _ = evaluate(chart.surface, np.column_stack(smooth))
         there = np.isfinite(P[0])
-        given = dict(chart.family.forcing) | named
+        given = dict(chart.scenario.forcing) | named
         Omega, eta = (np.broadcast_to(given.get(n, 0.0), len(at))[there] for n in ("Omega", "eta"))
         value = np.full(len(at), np.nan)
-        value[there] = edge_function(kind, P[:, there].T, Omega, eta)
+        value[there] = chart.scenario.reading.edge_function(kind, P[:, there].T, Omega, eta)
         return value
 
     return f

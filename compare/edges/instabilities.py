@@ -1,26 +1,19 @@
-"""What an engineer asks of a tongue: which frequencies, how wide, from where on, how violent."""
+"""What an engineer asks of a tongue: its frequencies, width, tips, and the largest T in it."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from compare.charts.parameters import Axis
+from compare.charts.axis import Axis
 from compare.charts.result import Chart
-from compare.stability.indicators import edge_function, growth
-from compare.tongues.boundaries import Tongue
-from compare.tongues.on_chart import (
-    ORDERS,
-    OnSurface,
-    axes_of,
-    merged,
-    on_surface,
-    stations,
-    tongues,
-)
-from hill.averaging import Resonance, half_width, modal
+from compare.edges.interpolated import InterpolatedField, axes_of, on_surface
+from compare.edges.on_chart import ORDERS, merged, stations, tongues
+from compare.edges.tracer import Tongue
+from hill.averaging import Resonance, critical_gamma, half_width
 
 Float = NDArray[np.floating[Any]]
 EPS = float(np.finfo(float).eps)
@@ -28,7 +21,7 @@ EPS = float(np.finfo(float).eps)
 # Shares of an edge's own Omega at which its slope is taken; central, so it is off by their square.
 SLOPE = 1e-6
 INSIDE = 65
-"""Points across a tongue among which its most violent one is sought."""
+"""Points across a tongue among which the one of the largest T is sought."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,8 +44,8 @@ class Instability:
         are taken there.
     width, width_Hsu : float
         Its width there, and to first order in gamma (0 for k > 1: of higher order).
-    T, Omega : float
-        The largest T there, and where.
+    T, T_error, Omega : float
+        The largest T there, a bound on its error, and where.
     critical_gamma, critical_gamma_Hsu : float
         The gamma from which damping is overcome: the tip's, on a chart of gamma with eta > 0, and
         to first order; nan where there is none.
@@ -66,6 +59,7 @@ class Instability:
     width: float
     width_Hsu: float
     T: float
+    T_error: float
     Omega: float
     critical_gamma: float
     critical_gamma_Hsu: float
@@ -82,7 +76,7 @@ def instabilities(
     ----------
     chart : Chart
     boundaries : tuple of Tongue, optional
-        Those of `compare.tongues.on_chart.tongues`, if they are there already.
+        Those of `compare.tongues`, if they are there already.
     orders : int, optional
         Resonances up to this order k, where `boundaries` are not given.
 
@@ -100,7 +94,7 @@ def instabilities(
 
 
 def _described(
-    chart: Chart, curves: OnSurface, y_axis: Axis, tongue: Tongue, others: Sequence[Tongue]
+    chart: Chart, curves: InterpolatedField, y_axis: Axis, tongue: Tongue, others: Sequence[Tongue]
 ) -> Instability:
     # where two tongues have run into one another, a width is neither's
     own = np.where(merged(tongue, others), 0.0, tongue.upper - tongue.lower)
@@ -109,25 +103,30 @@ def _described(
     equation = curves.equation(0.5 * (low + high), y)
     eta = equation.damping
     at = np.linspace(low, high, INSIDE)
-    T = growth(curves.along(at, y), at, eta)
+    P, errors = curves.known(at, y)
+    T = curves.reading.growth(P, at, eta)
+    top = slice(int(T.argmax()), int(T.argmax()) + 1)
     tips = _tips(tongue)
     opens_at_0 = y_axis.name == "gamma" and eta == 0.0 and y_axis.low == 0.0
     if opens_at_0 and tongue.y[0] == stations(y_axis)[0]:
-        tips = ((resonance.Omega(modal(equation)[0]), 0.0), *tips)
+        tips = ((resonance.Omega(curves.frequencies(y)), 0.0), *tips)
     return Instability(
         resonance=resonance,
         tongue=tongue,
-        edge_error=_edge_error(chart, curves, tongue),
+        edge_error=_edge_error(curves, tongue),
         tips=tips,
         y=y,
         width=high - low,
         width_Hsu=2.0 * half_width(resonance, equation) if resonance.order == 1 else 0.0,
         T=float(T.max()),
+        T_error=float(
+            curves.reading.argument_errors(P[top], errors[top], T[top], at[top], np.array([eta]))[0]
+        ),
         Omega=float(at[T.argmax()]),
         critical_gamma=tips[0][1]
         if y_axis.name == "gamma" and eta > 0.0 and tips
         else float("nan"),
-        critical_gamma_Hsu=_critical(resonance, equation),
+        critical_gamma_Hsu=critical_gamma(resonance, equation),
     )
 
 
@@ -136,40 +135,32 @@ def _tips(tongue: Tongue) -> tuple[tuple[float, float], ...]:
     return tuple((float(tongue.lower[k]), float(tongue.y[k])) for k in closed)
 
 
-def _critical(resonance: Resonance, equation: Any) -> float:
-    """2 eta/sqrt(+-G_ij G_ji/(omega_i omega_j)): where Hsu's width with damping opens."""
-    eta = equation.damping
-    if eta <= 0.0 or resonance.order > 1:
-        return float("nan")
-    frequencies, G = modal(equation)
-    i, j = resonance.i, resonance.j
-    product = resonance.sign * (G[i, j] * G[j, i] / (frequencies[i] * frequencies[j])).real
-    return float(2.0 * eta / np.sqrt(product)) if product > 0.0 else float("nan")
-
-
-def _edge_error(chart: Chart, curves: OnSurface, tongue: Tongue) -> Float:
+def _edge_error(curves: InterpolatedField, tongue: Tongue) -> Float:
     """How far P's error can move the edges at each y, the larger of the two.
 
     The edge's function is smooth in P's coefficients p and in Omega: to first order its zero moves
     by sum |df/dp_j| error / |df/dOmega|. Doubled, for what the first order leaves out.
     """
+    kind, edge_function = tongue.resonance.indicator, curves.reading.edge_function
     worst = np.full(len(tongue.y), 4.0 * EPS * float(np.max(tongue.upper)))
     for k, y in enumerate(map(float, tongue.y)):
         for Omega in map(float, (tongue.lower[k], tongue.upper[k])):
             eta = curves.equation(Omega, y).damping
             step = SLOPE * Omega
             nearby = Omega + step * np.array([-1.0, 0.0, 1.0])
-            P = curves.along(nearby, y)
-            f = edge_function(tongue.resonance.indicator, P, nearby, eta)
+            P, errors = curves.known(nearby, y)
+            f = edge_function(kind, P, nearby, eta)
             slope = abs(f[2] - f[0]) / (2.0 * step)
-            moved = _moved(tongue.resonance.indicator, P[1], Omega, eta, chart.error)
+            moved = _moved(partial(edge_function, kind), P[1], Omega, eta, float(errors.max()))
             # where the edges are closer than this moves them, they cannot be told apart
             bound = 2.0 * moved / slope if slope > 0.0 else np.inf
             worst[k] += bound if bound < 0.25 * (tongue.upper[k] - tongue.lower[k]) else np.inf
     return worst
 
 
-def _moved(kind: str, P: Float, Omega: float, eta: float, error: float) -> float:
+def _moved(
+    function: Callable[[Float, Float, float], Float], P: Float, Omega: float, eta: float, error: float
+) -> float:
     """How far the function moves where every coefficient moves by `error`."""
     # a step well above rounding, and small beside P; the function is a polynomial in p
     step = max(1e-6, error)
@@ -178,6 +169,6 @@ def _moved(kind: str, P: Float, Omega: float, eta: float, error: float) -> float
         sides = np.array([P, P])
         sides[0, j] -= step
         sides[1, j] += step
-        f = edge_function(kind, sides, np.full(2, Omega), eta)
+        f = function(sides, np.full(2, Omega), eta)
         total += abs(f[1] - f[0]) / (2.0 * step)
     return total * error

@@ -1,4 +1,4 @@
-"""z, R, T and the verdict at any points of a chart, with what the error of P allows."""
+"""z, R, T and the verdict of many P(z), with what the error of P allows."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -71,7 +71,7 @@ def solve(polynomial: Float, error: Float, Omega: Float, eta: Float) -> Points:
     )
 
 
-def verdicts(p: Float, error: Float, log_R: Float, Omega: Float, eta: Float) -> NDArray[np.str_]:
+def verdicts(p: Float, error: Float, T: Float, Omega: Float, eta: Float) -> NDArray[np.str_]:
     """The verdict of many P(z), (k, n + 1), as `solve` has it, at a hundredth of the price.
 
     Most are settled by P's signs or by a growth well beyond its error; only the others have discs
@@ -79,8 +79,8 @@ def verdicts(p: Float, error: Float, log_R: Float, Omega: Float, eta: Float) -> 
 
     Parameters
     ----------
-    log_R : (k,) ndarray
-        Computed ln R.
+    T : (k,) ndarray
+        As computed from P's roots.
     """
     n = p.shape[1] - 1
     errors = np.broadcast_to(error[:, None], p.shape).copy()
@@ -89,11 +89,26 @@ def verdicts(p: Float, error: Float, log_R: Float, Omega: Float, eta: Float) -> 
     inside, beyond = by_signs(p, errors, separators(p), decay)
     # the bound is for roots about [-1, 1], whose polynomials are no larger than this
     near = np.max(np.abs(p), axis=1) <= MARGIN * 2.0**n
-    grows = near & (log_R - largest_error(n, error) > decay + 8.0 * EPS * (1.0 + np.abs(decay)))
+    growth = T * (np.pi / Omega)
+    rounding = 8.0 * EPS * (1.0 + np.abs(decay) + np.abs(growth))
+    grows = near & (growth > largest_error(n, error) + rounding)
     stable = inside & (eta >= 0.0)
     result = np.where(stable, "stable", np.where(beyond | grows, "unstable", "undecided"))
     rest = np.flatnonzero(result == "undecided")
     result[rest] = stabilities(p[rest], errors[rest], Omega[rest], eta[rest]).verdict
+    return np.asarray(result)
+
+
+def argument_errors(p: Float, error: Float, T: Float, Omega: Float, eta: Float) -> Float:
+    """Bounds on the errors of many T that were computed from P(z), (k, n + 1), as it is."""
+    errors = np.broadcast_to(error[:, None], p.shape).copy()
+    errors[:, 0] = 0.0
+    # all z real and within [-1, 1]: T is -eta
+    still, _ = by_signs(p, errors, separators(p), np.zeros(len(p)))
+    result = np.abs(T + eta) + 8.0 * EPS * (Omega / np.pi + np.abs(eta))
+    rest = np.flatnonzero(~still)
+    found = stabilities(p[rest], errors[rest], Omega[rest], eta[rest])
+    result[rest] = found.T_error + np.abs(found.T - T[rest])
     return np.asarray(result)
 
 

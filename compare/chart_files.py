@@ -1,0 +1,139 @@
+"""A chart, and its tongues, as files: each says what it is of, by which version, in which units."""
+
+import csv
+import io
+import json
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from compare.charts.identity import type_name, value_fingerprint
+from compare.charts.result import Chart
+from compare.edges.instabilities import Instability
+from compare.provenance import as_line, provenance
+from hill.system import FORCING
+
+def about(chart: Chart) -> dict[str, Any]:
+    """The system, its forcing and the axes of a chart, and what is known of it."""
+    return {
+        "system": type_name(chart.system),
+        "parameters": {k: v for k, v in chart.scenario.fixed.items() if k not in FORCING},
+        "values": _values(chart.system),
+        "forcing": dict(chart.scenario.forcing),
+        "axes": [[a.name, a.low, a.high, a.count] for a in chart.axes],
+        "route": chart.route,
+        "shared_matrices": chart.shared_matrices,
+        "error_of_P": chart.error,
+        "relative_error_of_P": chart.relative_error,
+        "disagreement": _finite(chart.disagreement),
+        "one_by_one": chart.one_by_one,
+    }
+
+
+def npz(chart: Chart) -> bytes:
+    """Everything: axes, T and its error, verdicts, nodes and how far the routes differ there.
+
+    And `provenance`, a line of JSON: system, forcing, version, units.
+    """
+    buffer = io.BytesIO()
+    named = {axis.name: axis.points for axis in chart.axes}
+    np.savez_compressed(
+        buffer,
+        T=chart.T,
+        T_error=chart.T_error(),
+        verdict=chart.verdict(),
+        unstable=chart.unstable(),
+        undecided=chart.undecided(),
+        provenance=as_line(about(chart)),
+        error=chart.error,
+        disagreement=chart.disagreement,
+        nodes=chart.sampled,
+        apart=chart.apart,
+        **named,  # type: ignore[arg-type]
+    )
+    return buffer.getvalue()
+
+
+def as_csv(chart: Chart) -> bytes:
+    """A line of provenance behind "# ", then one a point: the axes, T, its error, the verdict."""
+    text = io.StringIO()
+    text.write(f"# {as_line(about(chart))}\n")
+    names = [axis.name for axis in chart.axes]
+    csv.writer(text, lineterminator="\n").writerow([*names, "T", "T_error", "verdict"])
+    mesh = np.meshgrid(*(axis.points for axis in chart.axes), indexing="ij")
+    verdicts = np.transpose(chart.verdict()).ravel()
+    numbers = np.column_stack(
+        [*(m.ravel() for m in mesh), *(np.transpose(x).ravel() for x in (chart.T, chart.T_error()))]
+    )
+    form = ",".join(["%.12g"] * (len(names) + 1) + ["%.1e"])
+    text.writelines(
+        f"{form % tuple(line)},{verdict}\n"
+        for line, verdict in zip(numbers.tolist(), verdicts.tolist(), strict=True)
+    )
+    return text.getvalue().encode()
+
+
+def as_json(chart: Chart, found: Sequence[Instability] = ()) -> bytes:
+    """Provenance, axes, T, its error, verdicts and tongues; null where a number is not finite."""
+    content = provenance(about(chart)) | {
+        "points": {axis.name: axis.points.tolist() for axis in chart.axes},
+        "T": _plain(chart.T),
+        "T_error": _plain(chart.T_error()),
+        "verdict": chart.verdict().tolist(),
+        "tongues": [_tongue(i) for i in found],
+    }
+    return (json.dumps(content, allow_nan=False) + "\n").encode()
+
+
+def tongues_csv(chart: Chart, found: Sequence[Instability], other: str) -> bytes:
+    """Provenance; one line for each tongue and value of the other parameter: edges, their error."""
+    text = io.StringIO()
+    text.write(f"# {as_line(about(chart) | {'tongues': [_summary(i) for i in found]})}\n")
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(["resonance", "type", "order", other, "lower", "upper", "error"])
+    for i in found:
+        head = [i.resonance.name, i.resonance.type, i.resonance.order]
+        rows = zip(i.tongue.y, i.tongue.lower, i.tongue.upper, i.edge_error, strict=True)
+        for y, lower, upper, error in rows:
+            writer.writerow([*head, f"{y:.12g}", f"{lower:.14g}", f"{upper:.14g}", f"{error:.1e}"])
+    return text.getvalue().encode()
+
+
+def _summary(i: Instability) -> dict[str, Any]:
+    """A tongue's numbers, but for its edges."""
+    return {
+        "resonance": i.resonance.name,
+        "type": i.resonance.type,
+        "order": i.resonance.order,
+        "begins": i.tongue.begins,
+        "ends": i.tongue.ends,
+        "y": i.y,
+        "width": i.width,
+        "T": i.T,
+        "T_error": _finite(i.T_error),
+        "Omega": i.Omega,
+        "critical_gamma": _finite(i.critical_gamma),
+    }
+
+
+def _tongue(i: Instability) -> dict[str, Any]:
+    edges = {name: getattr(i.tongue, name).tolist() for name in ("y", "lower", "upper")}
+    return _summary(i) | {"edges": edges | {"error": _plain(i.edge_error)}}
+
+
+def _values(system: Any) -> str | None:
+    """A name for all that the system holds, matrices too; none where two cannot be told apart."""
+    try:
+        return value_fingerprint(system)
+    except ValueError:
+        return None
+
+
+def _finite(value: float) -> float | None:
+    return value if np.isfinite(value) else None
+
+
+def _plain(values: Any) -> Any:
+    """Nested lists, with null where a number is not finite."""
+    return np.where(np.isfinite(values), values, np.array(None)).tolist()

@@ -1,0 +1,332 @@
+"""What a chart is of: a system, its forcing, the axes along which some of it varies."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import product
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from compare.charts.axis import Axis
+from compare.stability.reading import Reading, reading_of
+from floquet.witness import maker
+from hill import HillEquation, Singular, System, checks
+from hill.system import (
+    FORCING,
+    frequency_names,
+    natural_frequencies,
+    parameter_values,
+    singular_Omega,
+    varied,
+)
+
+Float = NDArray[np.floating[Any]]
+Complex = NDArray[np.complexfloating[Any, Any]]
+Values = Mapping[str, float]
+
+MAX_DECAY = 200.0
+"""eta/Omega: exp(-pi eta/Omega) stays above 1e-273."""
+
+MAX_RADIANS = 3000.0
+"""Of the fastest motion in a period; one evaluation then takes a tenth of a second, and a growth as
+fast as that leaves the floats four times over."""
+
+POLE_CLEARANCE = 0.25
+"""Widths of a box: a series over it whose nearest pole is farther than this converges by 2.6 a
+term, whatever the residue."""
+
+# Two floats that far apart are a pole met exactly, where neither Omega nor the pole is varied.
+SAME_OMEGA = 1e-9
+
+
+@dataclass(frozen=True, eq=False)
+class Scenario:
+    """A system under a forcing, some of whose parameters vary. Made by `scenario`.
+
+    Attributes
+    ----------
+    system : System
+    axes : tuple of Axis
+    forcing : dict of str to float
+        Omega, gamma and eta, as far as they are no axes.
+    reading : Reading
+        What P is a polynomial of, and how it tells stability.
+    coordinates : int
+        Degree of P.
+    """
+
+    system: Any
+    axes: tuple[Axis, ...]
+    forcing: Mapping[str, float]
+    reading: Reading
+    coordinates: int
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The axes' names."""
+        return tuple(axis.name for axis in self.axes)
+
+    @property
+    def shared_matrices(self) -> bool:
+        """Whether the witness has no matrices of its own, so that both routes get the system's."""
+        return maker(self.system) is None
+
+    @property
+    def fixed(self) -> dict[str, float]:
+        """The numbers of the system and the forcing that do not vary."""
+        own = {k: v for k, v in parameter_values(self.system).items() if k not in self.names}
+        return own | {name: float(value) for name, value in self.forcing.items()}
+
+    def at(self, values: Values) -> tuple[Any, dict[str, float]]:
+        """The system and its forcing at a point."""
+        forcing = dict(self.forcing)
+        forcing |= {name: float(values[name]) for name in FORCING if name in values}
+        own = {name: float(value) for name, value in values.items() if name not in FORCING}
+        return varied(self.system, own), forcing
+
+    def equation(self, values: Values) -> HillEquation:
+        """The system's own equation at a point.
+
+        Raises
+        ------
+        Singular
+            There is none.
+        ValueError
+            The system refuses, or what it gives is no `HillEquation`.
+        """
+        system, forcing = self.at(values)
+        return _own(system, **forcing)
+
+    def equations(self, points: Mapping[str, Float], route: str) -> list[HillEquation]:
+        """The equations at many points, their matrices made once where they are the same.
+
+        Parameters
+        ----------
+        points : mapping of str to (k,) ndarray
+        route : {"hill", "floquet"}
+            Whose matrices: the system's, or the witness's own where it has some.
+        """
+        make = (maker(self.system) if route == "floquet" else None) or _own
+        systems: dict[Any, Any] = {}
+        made: dict[Any, HillEquation] = {}
+        found = []
+        own_names = [name for name in points if name not in FORCING]
+        for line in zip(*points.values(), strict=True):
+            values = dict(zip(points, map(float, line), strict=True))
+            own = tuple(values[name] for name in own_names)
+            if own not in systems:
+                systems[own] = varied(self.system, {name: values[name] for name in own_names})
+            system = systems[own]
+            forcing = dict(self.forcing) | {k: v for k, v in values.items() if k in FORCING}
+            moves = getattr(system, "depends_on_Omega", None)
+            key = (own, forcing["Omega"] if moves or moves is None else None)
+            known = made.get(key) if moves is not None else None
+            if known is None or known.H:
+                known = made[key] = make(system, **forcing)
+                found.append(known)
+            else:
+                found.append(known.forced(**forcing))
+        return found
+
+    def frequencies(self, values: Values, Omega: float) -> Complex:
+        """Natural frequencies at a point, ascending; `Omega` is where F is looked at."""
+        return natural_frequencies(self.at({**values, "Omega": Omega})[0], Omega)
+
+    def frequency_names(self, count: int) -> tuple[str, ...]:
+        """What the system calls them."""
+        return frequency_names(self.system, count)
+
+    def singular(self, low: Values, high: Values) -> str | None:
+        """The parameter to cut by where a pole is in a box of parameters, or close by; or None.
+
+        The system says where its poles are in Omega. The box counts with a margin of
+        `POLE_CLEARANCE` on each side, so that a series over it has none at its door.
+        """
+        if not hasattr(self.system, "singular_Omega"):
+            return None
+        ends = {name: self._widened(name, low[name], high[name]) for name in low}
+        Omega = ends.pop("Omega", None)
+        if Omega is None:
+            fixed = self.forcing["Omega"]
+            Omega = fixed * (1.0 - SAME_OMEGA), fixed * (1.0 + SAME_OMEGA)
+        corners = [
+            varied(self.system, dict(zip(ends, corner, strict=True)))
+            for corner in product(*ends.values())
+        ]
+        # a pole that is on another side of the box at another corner passes through
+        below = {len(singular_Omega(system, 0.0, Omega[0])) for system in corners}
+        if len(below) == 1 and not any(len(singular_Omega(s, *Omega)) for s in corners):
+            return None
+        return self._across(low, high)
+
+    def _widened(self, name: str, low: float, high: float) -> tuple[float, float]:
+        margin = POLE_CLEARANCE * (high - low)
+        if name in FORCING:
+            return max(low - margin, 0.5 * low), high + margin
+        own = next(p for p in self.system.parameters if p.name == name)
+        return (
+            low - margin if low - margin > own.low else low,
+            high + margin if high + margin < own.high else high,
+        )
+
+    def _across(self, low: Values, high: Values) -> str:
+        """The parameter along which Omega and the poles move most against each other."""
+        middle = {name: 0.5 * (low[name] + high[name]) for name in low}
+        Omega = middle.get("Omega", self.forcing.get("Omega", 1.0))
+        moved = {"Omega": high["Omega"] - low["Omega"]} if "Omega" in low else {}
+        for name in (n for n in low if n not in FORCING):
+            own = {k: v for k, v in middle.items() if k not in FORCING}
+            first, last = (
+                singular_Omega(varied(self.system, own | {name: end}), 0.0, 2.0 * Omega)
+                for end in (low[name], high[name])
+            )
+            if len(first) == len(last):
+                moved[name] = float(np.max(np.abs(last - first), initial=0.0))
+        return max(moved, key=lambda name: moved[name]) if moved else next(iter(low))
+
+
+def scenario(
+    system: System,
+    axes: Sequence[Axis | tuple[str, float, float, int]] = (),
+    forcing: Values | None = None,
+) -> Scenario:
+    """Check what is asked, before any work.
+
+    Parameters
+    ----------
+    system : System
+    axes : sequence of Axis or (name, low, high, count)
+        Any parameter of the system, `Omega`, `gamma` or `eta`.
+    forcing : mapping, optional
+        Values of `Omega`, `gamma` and `eta` that are not axes; `eta` is 0 by default.
+
+    Raises
+    ------
+    ValueError
+        A name that the system does not have, twice or not at all; a corner of the ranges that the
+        system refuses, or that would take for ever or leave the floats, far into the work.
+    """
+    if not isinstance(system, System):
+        raise ValueError(
+            f"system = {type(system).__name__}: must have parameters and equation(Omega, gamma, "
+            "eta), as hill.System says"
+        )
+    own = {p.name: p.smooth for p in system.parameters}
+    drawn = tuple(_drawn(axis, own) for axis in axes)
+    given = {"eta": 0.0, **(forcing or {})}
+    names = [axis.name for axis in drawn]
+    _check_names(names, list(own), forcing or {})
+    if "eta" in names:
+        del given["eta"]
+    fixed = {name: float(value) for name, value in given.items()}
+    box = {axis.name: (axis.low, axis.high) for axis in drawn}
+    sample: HillEquation | None = None
+    for corner in product(*box.values()):
+        values = dict(zip(box, corner, strict=True))
+        sample = _checked(system, values, fixed) or sample
+    for share in (0.5, 0.382, 0.618):  # every corner on a pole
+        if sample is None:
+            inner = {name: low + share * (high - low) for name, (low, high) in box.items()}
+            sample = _checked(system, inner, fixed)
+    if sample is None:
+        raise ValueError("axes: the system has no equation at any corner, nor in the middle")
+    reading = reading_of(sample)
+    return Scenario(system, drawn, fixed, reading, reading.degree(sample))
+
+
+def _drawn(axis: Axis | tuple[str, float, float, int], smooth: Mapping[str, str]) -> Axis:
+    made = axis if isinstance(axis, Axis) else Axis(*axis)
+    return replace(made, smooth=smooth.get(made.name, made.smooth))
+
+
+def _check_names(names: list[str], own: list[str], forcing: Values) -> None:
+    known = [*own, *FORCING]
+    for name in names:
+        if name not in known:
+            raise ValueError(f"axis = {name!r}: must be one of {', '.join(known)}")
+        if names.count(name) > 1:
+            raise ValueError(f"axis = {name!r}: is there twice")
+    for name, value in forcing.items():
+        if name not in FORCING:
+            raise ValueError(f"{name}: must be one of {', '.join(FORCING)}")
+        checks.number(name, value)
+        if name in names:
+            raise ValueError(f"{name} = {value:g}: is an axis too; leave one of them out")
+    missing = {"Omega", "gamma"} - set(names) - set(forcing)
+    if missing:
+        raise ValueError(f"{min(missing)}: has no value; fix it, or make it an axis")
+
+
+def _checked(system: Any, values: Values, fixed: Values) -> HillEquation | None:
+    """The equation at a point; None on a pole.
+
+    Raises
+    ------
+    ValueError
+        It would take for ever, or leave the floats; the system breaks a promise.
+    """
+    forcing = dict(fixed) | {k: v for k, v in values.items() if k in FORCING}
+    there = varied(system, {k: v for k, v in values.items() if k not in FORCING})
+    where = ", ".join(f"{k} = {v:g}" for k, v in (values or forcing).items())
+    Omega, gamma, eta = (forcing[name] for name in FORCING)
+    checks.positive("Omega", Omega)
+    if abs(eta) > MAX_DECAY * Omega:
+        raise ValueError(
+            f"{where}: eta/Omega = {eta / Omega:.3g} must be at most {MAX_DECAY:g}, or a "
+            "period's decay leaves the floats"
+        )
+    try:
+        model = _own(there, **forcing)
+        _check_promise(there, model, forcing)
+    except Singular:  # the corner's own misfortune
+        return None
+    with np.errstate(over="ignore"):
+        sizes = np.abs(model.F) + abs(gamma) * np.abs(model.G) + sum(map(np.abs, model.H))
+    # Perron: no motion is faster, in whatever units the coordinates are
+    finite = np.all(np.isfinite(sizes))
+    fastest = float(np.max(np.abs(np.linalg.eigvals(sizes)))) ** 0.5 if finite else np.inf
+    if not 2.0 * np.pi * fastest / Omega <= MAX_RADIANS:
+        raise ValueError(
+            f"{where}: the motion turns by {2.0 * np.pi * fastest / Omega:.1e} radians a period, "
+            f"and {MAX_RADIANS:g} at most can be charted"
+        )
+    return model
+
+
+def _check_promise(system: Any, model: HillEquation, forcing: Values) -> None:
+    """Refuse a `depends_on_Omega` that is not kept, as far as one other forcing tells."""
+    moves = getattr(system, "depends_on_Omega", None)
+    if moves is None or model.H:
+        return
+    Omega, gamma, eta = (forcing[name] for name in FORCING)
+    asked = {
+        "Omega": Omega if moves else 1.25 * Omega,
+        "gamma": 0.5 * gamma + 0.125,
+        "eta": 0.5 * eta + 0.03125 * Omega,
+    }
+    other = _own(system, **asked)
+    kept = np.array_equal(other.F, model.F) and np.array_equal(other.G, model.G)
+    if not kept or (other.Omega, other.gamma, other.eta) != tuple(asked.values()):
+        raise ValueError(
+            f"{type(system).__name__}.depends_on_Omega = {moves}: promises F and G that do not "
+            f"move with {'' if moves else 'Omega, '}gamma and eta and a forcing as asked for; "
+            "leave it out, or make them so"
+        )
+
+
+def _own(system: Any, Omega: float, gamma: float, eta: float) -> HillEquation:
+    """The system's own equation.
+
+    Raises
+    ------
+    ValueError
+        It is no `HillEquation`.
+    """
+    found = system.equation(Omega, gamma, eta)
+    if not isinstance(found, HillEquation):
+        raise ValueError(
+            f"{type(system).__name__}.equation: must give a HillEquation, gave a "
+            f"{type(found).__name__}"
+        )
+    return found

@@ -1,0 +1,167 @@
+"""P(z) on a chart of Omega and another parameter, from its series: what tongues are traced on."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import lru_cache, partial
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from compare.charts import chebyshev
+from compare.charts.axis import Axis
+from compare.charts.result import Chart, directly
+from compare.charts.surface import Piece
+from compare.edges.field import PolynomialField
+from compare.stability.indicators import BESIDE_POLE, TAIL, NotSmooth
+from compare.stability.reading import Reading
+from hill import HillEquation
+from hill.system import singular_Omega
+
+Float = NDArray[np.floating[Any]]
+Complex = NDArray[np.complexfloating[Any, Any]]
+
+SECTIONS = 512
+"""Lines of constant y whose series are kept: one resonance after another is cut at the same."""
+
+MAX_ALONE = 65
+"""Points of one line that are evaluated without a series: an interpolant of degree 64."""
+
+
+@dataclass(frozen=True)
+class InterpolatedField(PolynomialField):
+    """A chart's series in place of a route: the same P, at a hundredth of the price.
+
+    Attributes
+    ----------
+    chart : Chart
+        Of Omega and one other parameter.
+    """
+
+    chart: Chart
+    _section: Callable[[int, float], Float] = field(repr=False, compare=False)
+
+    @property
+    def reading(self) -> Reading:
+        """The chart's."""
+        return self.chart.scenario.reading
+
+    @property
+    def error(self) -> float:
+        """The series', which are no smoother where one follows the other."""
+        return max(TAIL, self.chart.surface.error)
+
+    def frequencies(self, y: float) -> Complex:
+        """Natural frequencies, ascending."""
+        Omega, other = axes_of(self.chart)
+        middle = float(np.sqrt(Omega.low * Omega.high))
+        return self.chart.scenario.frequencies({other.name: y}, middle)
+
+    def poles(self, y: float, low: float, high: float) -> Float:
+        """Omega between low and high at which the system has no equation."""
+        _, other = axes_of(self.chart)
+        system, _ = self.chart.scenario.at({other.name: y, "Omega": low})
+        return singular_Omega(system, low, high)
+
+    def along(self, Omega: Float, y: float) -> Float:
+        """Coefficients of P at several Omega, (k, degree + 1); directly where there is no series.
+
+        Raises
+        ------
+        NotSmooth
+            A pole is met, or P leaves the floats.
+        """
+        return self.known(Omega, y)[0]
+
+    def known(self, Omega: Float, y: float) -> tuple[Float, Float]:
+        """The same with the errors, (k,)."""
+        Omega = np.atleast_1d(np.asarray(Omega, float))
+        _, other = axes_of(self.chart)
+        i = self.chart.scenario.names.index("Omega")
+        u, v = 1.0 / Omega, float(other.to_smooth(np.array(y)))
+        P = np.ones((len(u), self.chart.scenario.coordinates + 1))
+        errors = np.full(len(u), np.nan)
+        for k, piece in enumerate(self.chart.surface.pieces):
+            inside = (u >= piece.low[i]) & (u <= piece.high[i])
+            if piece.series is None or not piece.low[1 - i] <= v <= piece.high[1 - i]:
+                continue
+            if np.any(inside):
+                section = self._section(k, v)
+                local = (2.0 * u[inside] - piece.low[i] - piece.high[i]) / (
+                    piece.high[i] - piece.low[i]
+                )
+                P[inside, 1:] = (section @ chebyshev.basis(local, section.shape[1]).T).T
+                errors[inside] = piece.error
+        alone = np.isnan(errors)
+        if np.any(alone):
+            P[alone], errors[alone] = self._directly(Omega[alone], y)
+        return P, errors
+
+    def _directly(self, Omega: Float, y: float) -> tuple[Float, Float]:
+        if len(Omega) > MAX_ALONE:
+            raise NotSmooth("P has no series here, and is not smooth enough to do with few points")
+        ends = {"Omega": Omega, axes_of(self.chart)[1].name: np.full(len(Omega), y)}
+        points = np.column_stack([ends[name] for name in self.chart.scenario.names])
+        P, errors = directly(self.chart, points)
+        if np.any(np.isnan(P)):
+            raise NotSmooth("a pole is on the line", BESIDE_POLE)
+        if not np.all(np.isfinite(P)):
+            raise NotSmooth("P is beyond a float")
+        return P, errors
+
+    def P(self, Omega: float, y: float) -> Float:
+        """Coefficients of P at a point."""
+        return np.asarray(self.along(np.array([Omega]), y)[0])
+
+
+def axes_of(chart: Chart) -> tuple[Axis, Axis]:
+    """Omega's axis and the other one.
+
+    Raises
+    ------
+    ValueError
+        The chart is not one of Omega and one other parameter.
+    """
+    names = chart.scenario.names
+    if len(names) != 2 or "Omega" not in names:
+        raise ValueError(f"tongues: need a chart of Omega and one other, not of {', '.join(names)}")
+    k = names.index("Omega")
+    return chart.axes[k], chart.axes[1 - k]
+
+
+def on_surface(chart: Chart) -> InterpolatedField:
+    """The chart's equations, with P from its series.
+
+    Raises
+    ------
+    ValueError
+        As for `axes_of`.
+    """
+    Omega_axis, y = axes_of(chart)
+    keep = getattr(chart.system, "depends_on_Omega", True) is False
+
+    @lru_cache(maxsize=SECTIONS)
+    def matrices(value: float) -> HillEquation:
+        return chart.scenario.equation({"Omega": Omega_axis.high, y.name: value})
+
+    def equation(Omega: float, value: float) -> HillEquation:
+        values = {"Omega": Omega, y.name: value}
+        if not keep or matrices(value).H:
+            return chart.scenario.equation(values)
+        # F and G do not know Omega
+        return matrices(value).forced(**chart.scenario.at(values)[1])
+
+    along_y = 1 - chart.axes.index(Omega_axis)
+    section = lru_cache(maxsize=SECTIONS)(partial(_section, chart.surface.pieces, along_y))
+    route = chart.scenario.reading.polynomials["floquet"]
+    return InterpolatedField(equation, lambda e: route([e]).coefficients[0], chart, section)
+
+
+def _section(pieces: tuple[Piece, ...], along_y: int, k: int, v: float) -> Float:
+    """The series of a piece on a line of constant y, whose smooth variable is v."""
+    piece = pieces[k]
+    assert piece.series is not None
+    low, high = piece.low[along_y], piece.high[along_y]
+    local = np.array([(2.0 * v - low - high) / (high - low)])
+    row = chebyshev.basis(local, piece.series.shape[1 + along_y])[0]
+    return np.asarray(np.tensordot(piece.series, row, axes=(1 + along_y, 0)))

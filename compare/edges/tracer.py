@@ -1,0 +1,307 @@
+"""One resonance's instability, cut at any value of a second parameter, and followed through it.
+
+Where to look comes from the resonances and Hsu's widths (`hill.averaging`); what is solved is the
+sign change of an indicator of P (`compare.stability.indicators`), by bracketing, in a window that
+moves with the tongue; where the tongue closes, its depth is brought to zero in the second
+parameter.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import brentq
+
+from compare.edges.field import PolynomialField
+from compare.stability.indicators import (
+    BESIDE_POLE,
+    NotSmooth,
+    deepest,
+    edges,
+    interpolate_in_Omega,
+)
+from hill import Singular
+from hill.averaging import Resonance, half_width
+
+Float = NDArray[np.floating[Any]]
+Pair = tuple[float, float]
+
+# Half window over the half width expected, and what is added for the shift of the centre, which is
+# of second order: this share of gamma^2 Omega.
+REACH, SHIFT = 2.0, 0.3
+# How often the window is doubled before an instability's edges are given up.
+DOUBLINGS = 2
+# The window keeps to Omega above this share of the resonance, and below its reciprocal.
+MIN_SHARE = 0.4
+# A window ends before a pole by this share of the way to it.
+POLE_MARGIN = 0.1
+# Points added towards the tip of a tongue, as squares of these shares of a step: edges meet there
+# like a parabola.
+TOWARDS_TIP = (0.1, 0.25, 0.45, 0.7)
+
+RANGE, TIP = "the end of the range", "its edges meet"
+NOT_REAL = "the natural frequencies are not real"
+UNSEEN = "its edges are not seen"
+"""Why a tongue goes no further."""
+
+
+@dataclass(frozen=True, eq=False)
+class Tongue:
+    """One instability's boundary: two edges in Omega at each y, equal where it closes.
+
+    Attributes
+    ----------
+    resonance : Resonance
+    y, lower, upper : (k,) ndarray
+    begins, ends : str
+        Why it goes no further at its first and its last y.
+    """
+
+    resonance: Resonance
+    y: Float
+    lower: Float
+    upper: Float
+    begins: str = RANGE
+    ends: str = RANGE
+
+    def at(self, y: float) -> Pair | None:
+        """Edges at y by straight lines; None beyond its ends."""
+        if not self.y[0] <= y <= self.y[-1]:
+            return None
+        return float(np.interp(y, self.y, self.lower)), float(np.interp(y, self.y, self.upper))
+
+
+@dataclass(frozen=True)
+class Section:
+    """A tongue at one y: edges if it is there, and its deepest point."""
+
+    y: float
+    Omega: float
+    edges: Pair | None
+    bottom: float
+    depth: float
+
+    @property
+    def offsets(self) -> Pair:
+        """Edges from the resonance."""
+        lower, upper = self.edges or (self.bottom, self.bottom)
+        return lower - self.Omega, upper - self.Omega
+
+
+@dataclass(frozen=True)
+class Gap:
+    """No section here, and why."""
+
+    why: str
+
+
+@dataclass(frozen=True)
+class TongueTracer:
+    """One resonance of a field, cut at any y.
+
+    Attributes
+    ----------
+    field : PolynomialField
+    resonance : Resonance
+    """
+
+    field: PolynomialField
+    resonance: Resonance
+
+    def Omega(self, y: float) -> float:
+        """The resonance; nan where the frequencies are not real."""
+        return self.resonance.Omega(self.field.frequencies(y))
+
+    def window(self, y: float) -> float:
+        """Half the first window about the resonance; nan without one."""
+        Omega = self.Omega(y)
+        if not Omega > 0.0:
+            return float("nan")
+        try:
+            equation = self.field.equation(Omega, y)
+        except Singular:
+            return SHIFT * Omega
+        width = half_width(self.resonance, equation, damped=False)
+        return REACH * width + SHIFT * equation.gamma**2 * Omega
+
+    def section(self, y: float, expected: Pair | None = None) -> Section | Gap:
+        """What there is at y; `expected` are the edges' offsets from the resonance."""
+        Omega = self.Omega(y)
+        if not Omega > 0.0:
+            return Gap(NOT_REAL)
+        try:
+            equation = self.field.equation(Omega, y)
+        except Singular:
+            return Gap(BESIDE_POLE)
+        width, undamped = (half_width(self.resonance, equation, damped=d) for d in (True, False))
+        low, high = expected or (-width, width)
+        reach = REACH * max(undamped, 0.5 * (high - low)) + SHIFT * equation.gamma**2 * Omega
+        for doubling in range(DOUBLINGS + 1):
+            try:
+                section = self._within(y, Omega, (low, high), reach, equation.damping)
+            except NotSmooth as reason:
+                return Gap(reason.why)
+            if section is None:
+                return Gap(UNSEEN)
+            # unstable, but edges out of sight: the tongue is wider than first order makes it
+            if section.edges is not None or section.depth >= 0.0 or doubling == DOUBLINGS:
+                break
+            reach *= 2.0
+        return section
+
+    def _within(
+        self, y: float, Omega: float, guess: Pair, reach: float, eta: float
+    ) -> Section | None:
+        """What is seen in a window that reaches this far to either side of the guess's middle.
+
+        None where that is too far from the resonance.
+        """
+        low, high = guess
+        centre = Omega + 0.5 * (low + high)
+        lo, hi = self._clear(y, centre, centre - reach, centre + reach)
+        lo, hi = max(lo, MIN_SHARE * Omega), min(hi, Omega / MIN_SHARE)
+        if not lo < centre < hi:
+            return None
+        reading, error = self.field.reading, self.field.error
+        P = interpolate_in_Omega(lambda x: self.field.along(x, y), lo, hi, error)
+
+        def f(x: Float) -> Float:
+            return reading.indicator(self.resonance.indicator, P(x), x, eta)
+
+        # undamped, of two z that meet P's error makes its root
+        rounding = 0.0 if eta > 0.0 else np.sqrt(error)
+
+        def grows(x: Float) -> NDArray[np.bool_]:
+            return reading.growth(P(x), x, eta) > rounding
+
+        bottom, depth = deepest(f, lo, hi)
+        pair = edges(f, lo, hi, (Omega + low, Omega + high), bottom, grows)
+        return Section(y, Omega, pair, bottom, depth)
+
+    def _clear(self, y: float, centre: float, lo: float, hi: float) -> Pair:
+        """The window as far as no pole is in it, nor close by."""
+        poles = self.field.poles(y, lo / (1.0 + POLE_MARGIN), hi * (1.0 + POLE_MARGIN))
+        below, above = poles[poles <= centre], poles[poles > centre]
+        if len(below):
+            lo = max(lo, below[-1] + POLE_MARGIN * (centre - below[-1]))
+        if len(above):
+            hi = min(hi, above[0] - POLE_MARGIN * (above[0] - centre))
+        return lo, hi
+
+    def refine_tip(self, a: Section, b: Section) -> Section | None:
+        """Where between a and b, one with edges and one without, the tongue closes."""
+        offsets = (a if a.edges else b).offsets
+        if a.depth * b.depth >= 0.0:
+            return None
+
+        def depth(y: float) -> float:
+            for known in (a, b):
+                if y == known.y:
+                    return known.depth
+            section = self.section(y, offsets)
+            return section.depth if isinstance(section, Section) else abs(a.depth)
+
+        at = float(brentq(depth, a.y, b.y, xtol=1e-6 * (b.y - a.y)))
+        section = self.section(at, offsets)
+        if not isinstance(section, Section):
+            return None
+        return replace(section, edges=(section.bottom, section.bottom))
+
+    def towards_tip(self, tip: Section, known: Section) -> list[Section]:
+        """The tip and sections from it towards a known one, ever wider apart."""
+        steps = [tip.y + share**2 * (known.y - tip.y) for share in TOWARDS_TIP]
+        sections = [self.section(y, known.offsets) for y in steps]
+        return [tip, *(s for s in sections if isinstance(s, Section) and s.edges is not None)]
+
+
+@dataclass
+class _Piece:
+    """Sections one after another, and why there is none before the first and after the last."""
+
+    begins: str
+    sections: list[Section]
+    ends: str = RANGE
+
+
+def follow(
+    field: PolynomialField,
+    resonance: Resonance,
+    ys: Sequence[float],
+    within: Sequence[Tongue] = (),
+) -> tuple[Tongue, ...]:
+    """The boundary of one resonance's instability over the range of y, a `Tongue` a piece.
+
+    Parameters
+    ----------
+    field : PolynomialField
+    resonance : Resonance
+    ys : sequence of float
+        Ascending; more are added where the tongue closes.
+    within : sequence of Tongue, optional
+        The same without damping: where to look for what damping leaves of it.
+    """
+    tracer = TongueTracer(field, resonance)
+    pieces: list[_Piece] = []
+    open_piece: _Piece | None = None
+    last: Section | Gap | None = None
+    for y in ys:
+        here = _station(tracer, y, open_piece, within)
+        there = isinstance(here, Section) and here.edges is not None
+        tip: Section | None = None
+        if isinstance(here, Section) and isinstance(last, Section):
+            if there != (open_piece is not None):
+                tip = tracer.refine_tip(last, here)
+        if there and open_piece is None:
+            open_piece = _Piece(RANGE if last is None else _why(last, tip), [])
+            pieces.append(open_piece)
+        if tip is not None and open_piece is not None and isinstance(here, Section):
+            known = here if there else last
+            assert isinstance(known, Section)
+            between = tracer.towards_tip(tip, known)
+            open_piece.sections += between if there else between[::-1]
+        if there and open_piece is not None and isinstance(here, Section):
+            open_piece.sections.append(here)
+        elif open_piece is not None:
+            open_piece.ends = _why(here, tip)
+            open_piece = None
+        last = here
+    return tuple(_tongue(resonance, piece) for piece in pieces if len(piece.sections) > 1)
+
+
+def _station(
+    tracer: TongueTracer, y: float, piece: _Piece | None, within: Sequence[Tongue]
+) -> Section | Gap:
+    if not within:
+        return tracer.section(y, _continued(piece.sections if piece else [], y))
+    outline = [pair for tongue in within if (pair := tongue.at(y))]
+    if not outline:
+        return Gap(UNSEEN)
+    Omega = tracer.Omega(y)
+    return tracer.section(y, (outline[0][0] - Omega, outline[0][1] - Omega))
+
+
+def _why(beyond: Section | Gap, tip: Section | None) -> str:
+    """Why a piece goes no further."""
+    if tip is not None:
+        return TIP
+    return beyond.why if isinstance(beyond, Gap) else UNSEEN
+
+
+def _continued(before: list[Section], y: float) -> Pair | None:
+    """Offsets continued in a straight line from the last two sections."""
+    if len(before) < 2:
+        return before[0].offsets if before else None
+    first, last = before[-2:]
+    if last.y == first.y:  # a tip upon a station
+        return last.offsets
+    t = min(1.0, (y - last.y) / (last.y - first.y))
+    low, high = (b + t * (b - a) for a, b in zip(first.offsets, last.offsets, strict=True))
+    return (low, high) if low < high else last.offsets
+
+
+def _tongue(resonance: Resonance, piece: _Piece) -> Tongue:
+    lower, upper = np.array([section.edges for section in piece.sections]).T
+    y = np.array([section.y for section in piece.sections])
+    return Tongue(resonance, y, lower, upper, piece.begins, piece.ends)
