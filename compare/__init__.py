@@ -10,20 +10,47 @@ if TYPE_CHECKING:
     from compare.both_routes import CrossCheck, crosscheck
     from compare.charts.compute import chart
     from compare.charts.result import Chart
+    from compare.edges.curves import Curve, boundaries
+    from compare.edges.instabilities import Instability, instabilities
+    from compare.edges.on_chart import tongues
+    from compare.edges.tongue import Tongue
+    from compare.jobs.cluster import over
     from compare.report.row import Outcome
     from compare.report.run import Report, verify
-
-__all__ = ["Chart", "CrossCheck", "Outcome", "Report", "chart", "crosscheck", "verify"]
 
 _HOMES = {
     "Chart": "compare.charts.result",
     "CrossCheck": "compare.both_routes",
+    "Curve": "compare.edges.curves",
+    "Instability": "compare.edges.instabilities",
     "Outcome": "compare.report.row",
     "Report": "compare.report.run",
+    "Tongue": "compare.edges.tongue",
+    "boundaries": "compare.edges.curves",
     "chart": "compare.charts.compute",
     "crosscheck": "compare.both_routes",
+    "instabilities": "compare.edges.instabilities",
+    "over": "compare.jobs.cluster",
+    "tongues": "compare.edges.on_chart",
     "verify": "compare.report.run",
 }
+
+__all__ = [
+    "Chart",
+    "CrossCheck",
+    "Curve",
+    "Instability",
+    "Outcome",
+    "Report",
+    "Tongue",
+    "boundaries",
+    "chart",
+    "crosscheck",
+    "instabilities",
+    "over",
+    "tongues",
+    "verify",
+]
 
 
 def __getattr__(name: str) -> Any:

@@ -14,6 +14,7 @@ from compare.edges.instabilities import Instability
 from compare.provenance import as_line, provenance
 from hill.system import FORCING
 
+
 def about(chart: Chart) -> dict[str, Any]:
     """The system, its forcing and the axes of a chart, and what is known of it."""
     return {

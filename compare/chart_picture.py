@@ -11,7 +11,7 @@ import numpy as np
 
 from compare.charts.result import Chart
 from compare.edges.curves import Curve
-from compare.edges.tracer import Tongue
+from compare.edges.tongue import Tongue
 from hill.averaging import Resonance
 
 STYLE: Any = {
@@ -23,10 +23,13 @@ STYLE: Any = {
 }
 
 
-GREEK = (
-    "alpha beta gamma delta epsilon zeta eta theta kappa lambda mu nu xi rho sigma tau phi chi psi "
-    "omega Gamma Delta Theta Lambda Xi Sigma Phi Psi Omega"
-).split()
+GREEK = frozenset(
+    re.findall(
+        r"\w+",
+        """alpha beta gamma delta epsilon zeta eta theta kappa lambda mu nu xi rho sigma tau phi chi
+        psi omega Gamma Delta Theta Lambda Xi Sigma Phi Psi Omega""",
+    )
+)
 
 TITLE_WIDTH = 104
 """Characters of a title's line: the picture is as wide."""
@@ -217,9 +220,7 @@ def _name(axes: Any, chart: Chart, boundaries: Sequence[Tongue]) -> None:
 def _math(resonance: Resonance) -> str:
     """A resonance's name as mathematics."""
     first, second = (rf"\omega_{{({_subscript(name)})}}" for name in resonance.frequencies)
-    pair = (
-        f"2 {first}" if first == second else f"{first} {'+-'[resonance.sign < 0]} {second}"
-    )
+    pair = f"2 {first}" if first == second else f"{first} {'+-'[resonance.sign < 0]} {second}"
     return f"${pair}$" if resonance.order == 1 else f"$({pair})/{resonance.order}$"
 
 

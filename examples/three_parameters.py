@@ -11,16 +11,16 @@ from contextlib import nullcontext
 from pathlib import Path
 
 from compare import chart
-from compare.charts.specification import from_file
 from compare.jobs.cluster import connect
+from compare.system_file import read
 
 
 def main(address: str | None = None, resume: str = "three_parameters.nodes") -> None:
     """Chart T over Omega, gamma and T0 and print a line a thrust."""
-    wanted = from_file(Path(__file__).with_suffix(".toml"))
+    wanted = read(Path(__file__).with_suffix(".toml"))
     with connect(address) if address else nullcontext(1) as workers:
         cube = chart(
-            wanted.beam,
+            wanted.system,
             wanted.axes,
             route="floquet",
             tolerance=1e-9,

@@ -90,6 +90,21 @@ def modal(equation: HillEquation) -> tuple[Complex, Complex]:
     return frequencies[order], np.linalg.solve(modes, equation.G @ modes)
 
 
+def fastest_motion(equation: HillEquation) -> float:
+    """No frequency, and no growth, is above it, whatever the units of the coordinates.
+
+    The square root of the largest eigenvalue of |F| + |gamma| |G| + sum |H_s| (Perron); infinite
+    where that is beyond a float.
+    """
+    with np.errstate(over="ignore"):
+        sizes = np.abs(equation.F) + abs(equation.gamma) * np.abs(equation.G)
+        for H in equation.H:
+            sizes = sizes + np.abs(H)
+    if not np.all(np.isfinite(sizes)):
+        return float("inf")
+    return float(np.sqrt(np.max(np.abs(np.linalg.eigvals(sizes)))))
+
+
 def half_width(resonance: Resonance, equation: HillEquation, *, damped: bool = True) -> float:
     """Hsu's half width in Omega, to first order in gamma; 0 where there is no instability.
 

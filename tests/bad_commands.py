@@ -13,22 +13,26 @@ NOT_NUMBERS = ("x", "", "1,5", "1e", "--", "0x10", "٣")
 NOT_FINITE = ("nan", "inf", "-inf")
 HUGE = ("1e300", "1e30")
 
+UNIFORM = 'kind = "uniform"\n[system]\nT0 = 20.0\nK_theta = 0.5\nxi_G = 0.5'
+
 FILES = {
     "empty.toml": "",
     "broken.toml": "kind = ",
-    "number.toml": "beam = 1\nforcing = 2",
-    "list.toml": "beam = [1]\naxis = 3",
-    "string.toml": 'beam = "uniform"',
-    "forcing.toml": '[beam]\nkind = "uniform"\n[forcing]\neta = "x"',
-    "true.toml": '[beam]\nkind = "uniform"\nT0 = true',
-    "kind.toml": '[beam]\nkind = "wobbly"',
-    "kinds.toml": "[beam]\nkind = [1]",
-    "axis.toml": '[[axis]]\nname = "Omega"\nlow = 1',
-    "axes.toml": '[axis]\nname = "Omega"',
-    "axisname.toml": "[[axis]]\nname = 3\nlow = 1\nhigh = 2\ncount = 3",
-    "omega.toml": '[forcing]\nOmega = -1\n[[axis]]\nname = "gamma"\nlow = 0\nhigh = 1\ncount = 3',
-    "extra.toml": "[beams]\nT0 = 1",
-    "typo.toml": '[beam]\nkind = "uniform"\nTO = 1.0',
+    "old.toml": '[beam]\nkind = "uniform"\nT0 = 15.0',
+    "number.toml": 'kind = "uniform"\nsystem = 1\nforcing = 2',
+    "list.toml": 'kind = "uniform"\nsystem = [1]\naxis = 3',
+    "string.toml": 'kind = "uniform"\nsystem = "uniform"',
+    "forcing.toml": f'{UNIFORM}\n[forcing]\neta = "x"',
+    "true.toml": 'kind = "uniform"\n[system]\nT0 = true\nK_theta = 0.5\nxi_G = 0.5',
+    "kind.toml": 'kind = "wobbly"',
+    "kinds.toml": "kind = [1]",
+    "axis.toml": f'{UNIFORM}\n[[axis]]\nname = "Omega"\nlow = 1',
+    "axes.toml": f'{UNIFORM}\n[axis]\nname = "Omega"',
+    "axisname.toml": f"{UNIFORM}\n[[axis]]\nname = 3\nlow = 1\nhigh = 2\ncount = 3",
+    "omega.toml": f"{UNIFORM}\n[forcing]\nOmega = -1\n[[axis]]\n"
+    'name = "gamma"\nlow = 0\nhigh = 1\ncount = 3',
+    "extra.toml": f"{UNIFORM}\n[beams]\nT0 = 1",
+    "typo.toml": f"{UNIFORM}\nTO = 1.0",
     "deep.toml": "x = " + "[" * 5000 + "]" * 5000,
     "nothing.deck": "",
     "words.deck": "this is no deck\n" * 20,
@@ -199,7 +203,7 @@ def _all() -> dict[str, tuple[list[str], str]]:
         add(f"chart file {name[:12]}", ["chart", name, *CHART[1:]], name[:12])
 
     for name in (*(n for n in FILES if n.endswith(".toml") and n != "good.toml"), "gone.toml"):
-        named = "Omega" if name == "noforcing.toml" else name
+        named = {"noforcing.toml": "Omega", "omega.toml": "gamma"}.get(name, name)
         add(f"system {name}", ["system", name], named)
     for name in SYSTEMS:
         add(f"system of {name}", ["system", f"system-{name}.toml"], "")

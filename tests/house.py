@@ -59,7 +59,7 @@ DATA_MODULES = {
     "hill.vehicle.vehicle",
 }
 # What the data's own modules do compute: the determinant's side of a beam.
-COMPUTED = {"equation", "frequencies", "longitudinal_resonances", "natural_frequencies"}
+COMPUTED = {"equation", "frequencies", "natural_frequencies", "singular_Omega"}
 
 # What the judge may ask a route for: P, T, z and their bounds, the witness's own matrices, and
 # where theory expects an instability.
@@ -81,6 +81,8 @@ ANSWERS = {
     "floquet.witness.maker",
     "floquet.witness.rougher_maker",
     "hill.averaging.Resonance",
+    "hill.averaging.critical_gamma",
+    "hill.averaging.fastest_motion",
     "hill.averaging.first_order",
     "hill.averaging.half_width",
     "hill.averaging.modal",

@@ -7,6 +7,9 @@ import numpy as np
 import pytest
 from scipy.linalg import eigh_tridiagonal
 
+from compare.edges.field import PolynomialField
+from compare.edges.tongue import NOT_REAL, Gap, Tongue
+from compare.edges.tracer import TongueTracer, follow
 from compare.report.one_route import Batched, family, solve
 from compare.stability.indicators import (
     crossings,
@@ -18,7 +21,6 @@ from compare.stability.indicators import (
     interpolate_in_Omega,
     roots,
 )
-from compare.tongues.boundaries import Cutter, Family, Tongue, follow
 from hill import HillEquation, UniformBeam, characteristic
 from hill.averaging import Resonance, first_order, half_width, modal
 
@@ -42,7 +44,7 @@ UNSTABLE = {
 """Hsu's half width over gamma, by hand."""
 
 
-def along_gamma(eta: float = 0.0) -> Family:
+def along_gamma(eta: float = 0.0) -> PolynomialField:
     return Batched(
         lambda Omega, y: HillEquation(F, G, y, Omega, eta), lambda e: solve("floquet", [e])[0]
     )
@@ -74,11 +76,11 @@ def test_resonances_are_those_of_section_7_1() -> None:
 
 def test_a_frequency_that_is_not_real_has_no_resonance() -> None:
     assert np.isnan(Resonance(0, 0).Omega(np.array([0.1j, 1.0])))
-    family_lost = Family(
+    family_lost = PolynomialField(
         lambda Omega, y: HillEquation(np.diag([-1.0, 4.0]), np.eye(2), y, Omega),
         lambda e: characteristic(e).polynomial,
     )
-    assert Cutter(family_lost, Resonance(0, 0)).cut(0.1) is None
+    assert TongueTracer(family_lost, Resonance(0, 0)).section(0.1) == Gap(NOT_REAL)
     assert follow(family_lost, Resonance(0, 0), [0.1, 0.2]) == ()
 
 
@@ -163,7 +165,7 @@ def mathieu(q: float, kind: str) -> float:
 @pytest.mark.parametrize("gamma", [0.1, 0.5, 1.0])
 def test_mathieu(gamma: float) -> None:
     """x'' + (a - 2 q cos 2t) x = 0 with a = 4/Omega^2, |q| = 2 gamma/Omega^2."""
-    one = Family(
+    one = PolynomialField(
         lambda Omega, y: HillEquation(np.eye(1), np.eye(1), y, Omega),
         lambda e: characteristic(e).polynomial,
     )

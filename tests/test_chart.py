@@ -1,6 +1,7 @@
 """Charts: the interpolated P(z), its error, its boundaries, its files, its refusals."""
 
 import csv
+import json
 from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
@@ -14,7 +15,7 @@ from compare.charts import chebyshev, surface
 from compare.charts.compute import chart
 from compare.charts.result import Chart
 from compare.charts.surface import evaluate
-from compare.tongues.on_chart import tongues
+from compare.edges.on_chart import tongues
 from floquet import monodromy
 from floquet.weak_form import galerkin
 from hill import SteppedBeam, UniformBeam, characteristic
@@ -99,8 +100,8 @@ def test_both_routes_sample_and_meet() -> None:
 
 def test_a_pole_of_the_axial_force_is_met_directly(monkeypatch: pytest.MonkeyPatch) -> None:
     # two cuts are enough to see the pole left to direct evaluation
-    monkeypatch.setattr(surface, "DEEPEST", 2)
-    monkeypatch.setattr(surface, "MOST", 33)
+    monkeypatch.setattr(surface, "MAX_CUTS", 2)
+    monkeypatch.setattr(surface, "MAX_POINTS", 33)
     soft = UniformBeam(T0=20.0, K_theta=0.5, xi_G=0.5, omega_L=2.0)
     near = chart(
         soft, [("Omega", 1.98, 2.03, 6)], forcing={"gamma": 0.01}, route="floquet", tolerance=1e-4
@@ -197,24 +198,34 @@ def test_command_writes_each_kind(tmp_path: Path, capsys: pytest.CaptureFixture[
         (".png", b"\x89PNG"),
         (".svg", b"<?xml"),
         (".npz", b"PK"),
-        (".csv", b"Omega,gamma,T"),
+        (".csv", b'# {"schema": 1, "made_by": "floquet-crosscheck'),
     ):
         target = tmp_path / f"chart{suffix}"
         assert main([*words, "--output", str(target)]) == 0
         assert target.read_bytes().startswith(starts)
     out = capsys.readouterr().out
     assert "30 x 20 points" in out
-    lines = list(csv.DictReader((tmp_path / "chart.csv").read_text().splitlines()))
+    first, *rest = (tmp_path / "chart.csv").read_text().splitlines()
+    about = json.loads(first.removeprefix("# "))
+    assert about["system"] == "hill.beams.UniformBeam"
+    assert about["parameters"]["T0"] == 20.0
+    assert about["forcing"] == {"eta": 0.0}
+    assert "omega_1" in about["units"]
+    assert rest[0] == "Omega,gamma,T,T_error,verdict"
+    lines = list(csv.DictReader(rest))
     assert len(lines) == 600
     with np.load(tmp_path / "chart.npz") as content:
         assert content["T"].shape == (20, 30)
         assert float(lines[-1]["T"]) == pytest.approx(content["T"][-1, -1], abs=1e-11)
+        assert json.loads(str(content["provenance"])) == about
+        assert content["T_error"].shape == content["verdict"].shape == (20, 30)
 
 
 def test_command_reads_a_file(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     source = tmp_path / "mine.toml"
     source.write_text(
-        '[beam]\nkind = "stepped"\nT0 = 10.0\n[forcing]\ngamma = 0.1\n'
+        'kind = "stepped"\n[system]\nT0 = 10.0\nK_theta = 1.0\nxi_G = 0.5\nxi_c = 0.6\n'
+        "area_ratio = 0.6\ninertia_ratio = 0.6\n[forcing]\ngamma = 0.1\n"
         '[[axis]]\nname = "Omega"\nlow = 1.0\nhigh = 1.4\ncount = 7\n'
         '[[axis]]\nname = "xi_G"\nlow = 0.4\nhigh = 0.6\ncount = 5\n'
     )

@@ -13,10 +13,10 @@ import numpy as np
 import pytest
 
 from compare.__main__ import main
-from compare.charts.specification import from_file
 from compare.stability.roots import growth
+from compare.system_file import read
 from floquet.batch import polynomials
-from hill import HillEquation
+from hill import HillEquation, UniformBeam
 
 ROOT = Path(__file__).parents[1]
 PAGE = (ROOT / "docs" / "charts.md").read_text(encoding="utf-8")
@@ -71,11 +71,12 @@ def test_commands_run(line: str, aside: Path, capsys: pytest.CaptureFixture[str]
 
 def test_file_is_a_file(tmp_path: Path) -> None:
     (text,) = blocks("toml")
-    assert set(tomllib.loads(text)) == {"beam", "forcing", "axis"}
+    assert set(tomllib.loads(text)) == {"kind", "system", "forcing", "axis"}
     path = tmp_path / "mine.toml"
     path.write_text(text)
-    assert from_file(path).beam.T0 == 15.0
-    assert from_file(path).forcing == {"eta": 0.01}
+    assert read(path).system == UniformBeam(T0=15.0, K_theta=0.5, xi_G=0.5)
+    assert read(path).forcing == {"eta": 0.01}
+    assert [name for name, *_ in read(path).axes] == ["Omega", "gamma"]
 
 
 def test_three_parameters(
@@ -88,10 +89,10 @@ def test_three_parameters(
     printed = capsys.readouterr().out
     assert printed in blocks("text")
     # ... and one of its lines by direct evaluation at every point
-    wanted = from_file(aside / "examples" / "three_parameters.toml")
-    Omega, gamma, T0 = (axis.points for axis in wanted.axes)
+    wanted = read(aside / "examples" / "three_parameters.toml")
+    Omega, gamma, T0 = (np.linspace(low, high, count) for _, low, high, count in wanted.axes)
     assert T0[15] == 20.0
-    beam = wanted.beam
+    beam = wanted.system
     mesh = [m.ravel() for m in np.meshgrid(Omega, gamma)]
     model = beam.equation(1.0, 0.1)
     P = polynomials([replaced(model, o, g) for o, g in zip(*mesh, strict=True)]).coefficients

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 from compare.charts.compute import chart
-from compare.charts.nodes import BATCH, Nodes
-from compare.charts.parameters import Axis, Family
+from compare.charts.nodes import NODES_PER_JOB, Nodes
+from compare.charts.scenario import scenario
 from compare.jobs import cluster
 from compare.jobs.cluster import connect, over
 from compare.jobs.workers import WorkersError, unordered
@@ -95,22 +95,21 @@ def test_a_chart_of_three_parameters_is_the_same_to_the_last_bit(client: Any) ->
     assert 0.0 < np.mean(there.T > 1e-3) < 1.0
     assert np.array_equal(here.T, there.T)
     # several jobs for either process
-    assert there.nodes > 4 * BATCH / 2
+    assert there.nodes > 4 * NODES_PER_JOB / 2
 
 
 def test_both_routes_are_asked_there(client: Any, tmp_path: Path) -> None:
-    axes = tuple(Axis(*axis) for axis in CUBE)
     points = np.random.default_rng(5).uniform([0.8, 0.0, 15.0], [0.9, 0.2, 20.0], (48, 3))
     path = tmp_path / "cube.nodes"
     sample = [
-        Nodes(Family(BEAM, {}), axes, "both", run, store)
+        Nodes(scenario(BEAM, CUBE), "both", run, store)
         for run, store in ((map, None), (over(client), path))
     ]
     (P, errors), (other, _) = (nodes(points) for nodes in sample)
     assert np.array_equal(P, other)
     assert 0.0 < sample[0].disagreement == sample[1].disagreement < errors.max()
     # what the cluster finished is on this side's disk
-    assert Nodes(Family(BEAM, {}), axes, "both", map, path).resumed == 48
+    assert Nodes(scenario(BEAM, CUBE), "both", map, path).resumed == 48
 
 
 def test_two_processes_of_one_thread_each(client: Any) -> None:

@@ -136,10 +136,10 @@ JUDGED: dict[str, Callable[[], Any]] = {
     "crosscheck": lambda: compare.crosscheck(BEAMS["stepped"], Omega=1.8, gamma=0.1),
     "chart": lambda: charted("uniform", "floquet"),
     "chart, hill": lambda: charted("uniform", "hill"),
-    "tongues": lambda: import_module("compare.tongues.instabilities").instabilities(
+    "tongues": lambda: import_module("compare.edges.instabilities").instabilities(
         charted("stepped", "both")
     ),
-    "curves": lambda: import_module("compare.tongues.curves").curves(charted("stepped", "hill")),
+    "curves": lambda: import_module("compare.edges.curves").boundaries(charted("stepped", "hill")),
 }
 
 

@@ -14,16 +14,15 @@ from typing import Any
 import numpy as np
 import pytest
 
-from compare.charts import nodes
+from compare.charts import identity, nodes
 from compare.charts.compute import Chart, chart
 from compare.charts.nodes import Nodes
-from compare.charts.parameters import Axis, Family
+from compare.charts.scenario import scenario
 from compare.charts.store import HEAD, Store
 from hill import UniformBeam
 
 BEAM = UniformBeam(T0=20.0, K_theta=0.5, xi_G=0.5)
 AXES = [("Omega", 0.9, 1.3, 31), ("gamma", 0.0, 0.3, 21)]
-DRAWN = tuple(Axis(*axis) for axis in AXES)
 
 # Small jobs, so that there are many moments to be killed at. A job's line appears when the next
 # one is asked for: then it is on disk.
@@ -39,7 +38,7 @@ def slowly(function, jobs):
         yield function(job)
         print(len(job.points), flush=True)
 
-nodes.BATCH = 8
+nodes.NODES_PER_JOB = 8
 beam = UniformBeam(T0=20.0, K_theta=0.5, xi_G=0.5)
 axes = [("Omega", 0.9, 1.3, 31), ("gamma", 0.0, 0.3, 21)]
 chart(beam, axes, route="floquet", workers=slowly, resume=sys.argv[1])
@@ -50,19 +49,19 @@ SPREAD = """
 import multiprocessing, sys
 from pathlib import Path
 from compare.charts.nodes import Nodes
-from compare.charts.parameters import Axis, Family
+from compare.charts.scenario import scenario
 from compare.jobs.workers import mapper
 from hill import UniformBeam
 import numpy as np
 
 if __name__ == "__main__":
-    family = Family(UniformBeam(T0=20.0, K_theta=0.5, xi_G=0.5))
-    axes = (Axis("Omega", 0.9, 1.3, 31), Axis("gamma", 0.0, 0.3, 21))
+    beam = UniformBeam(T0=20.0, K_theta=0.5, xi_G=0.5)
+    wanted = scenario(beam, [("Omega", 0.9, 1.3, 31), ("gamma", 0.0, 0.3, 21)])
     points = np.random.default_rng(1).uniform([0.8, 0.0], [1.1, 0.3], (20000, 2))
     def told(count):
         print(count, *(p.pid for p in multiprocessing.active_children()), flush=True)
     with mapper(2) as run:
-        Nodes(family, axes, "hill", run, Path(sys.argv[1]), told)(points)
+        Nodes(wanted, "hill", run, Path(sys.argv[1]), told)(points)
 """
 
 
@@ -79,12 +78,12 @@ def start(script: str, *words: str) -> "subprocess.Popen[str]":
 
 def held(path: Path, route: str = "floquet") -> Nodes:
     """The file as the next run will find it."""
-    return Nodes(Family(BEAM, {}), DRAWN, route, map, path)
+    return Nodes(scenario(BEAM, AXES), route, map, path)
 
 
 @pytest.fixture
 def small_jobs(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(nodes, "BATCH", 8)
+    monkeypatch.setattr(nodes, "NODES_PER_JOB", 8)
 
 
 @pytest.fixture
@@ -167,8 +166,8 @@ def test_interrupted_from_the_keyboard(tmp_path: Path) -> None:
     assert run.returncode == 130
     assert said == "verify chart: interrupted\n"
     assert [p.name for p in tmp_path.iterdir()] == [path.name]
-    wide = (Axis("Omega", 0.35, 6.0, 9), Axis("gamma", 0.0, 1.0, 9))
-    assert Nodes(Family(BEAM, {}), wide, "hill", map, path).resumed > 0
+    wide = [("Omega", 0.35, 6.0, 9), ("gamma", 0.0, 1.0, 9)]
+    assert Nodes(scenario(BEAM, wide), "hill", map, path).resumed > 0
 
 
 def wait_for(there: Callable[[], bool]) -> None:
@@ -204,7 +203,7 @@ def test_progress_comes_after_the_disk(tmp_path: Path, small_jobs: None) -> None
         assert held(path).resumed == sum(told)
 
     points = np.random.default_rng(1).uniform([0.8, 0.0], [1.1, 0.3], (20, 2))
-    Nodes(Family(BEAM, {}), DRAWN, "floquet", map, path, progress)(points)
+    Nodes(scenario(BEAM, AXES), "floquet", map, path, progress)(points)
     assert told == [8, 8, 4]
 
 
@@ -336,14 +335,14 @@ def test_nodes_of_other_numerics_are_refused(
     held(path)
     shutil.copytree(Path(nodes.__file__).parents[2] / "hill", tmp_path / "hill")
     shutil.copytree(Path(nodes.__file__).parents[2] / "floquet", tmp_path / "floquet")
-    monkeypatch.setattr(nodes, "files", lambda package: tmp_path / package)
-    compute = nodes.numerics.__wrapped__
-    assert compute() == nodes.numerics()
+    monkeypatch.setattr(identity, "files", lambda package: tmp_path / package)
+    compute = identity.source_fingerprint.__wrapped__
+    assert compute() == identity.source_fingerprint()
     source = tmp_path / "hill" / "determinant" / "finite.py"
     source.write_text(source.read_text() + "\nX = 1\n")
-    assert compute() != nodes.numerics()
-    monkeypatch.setattr(nodes, "numerics", compute)
-    with pytest.raises(ValueError, match=r"another chart \(numerics = "):
+    assert compute() != identity.source_fingerprint()
+    monkeypatch.setattr(nodes, "source_fingerprint", compute)
+    with pytest.raises(ValueError, match=r"another chart \(source = "):
         held(path)
 
 

@@ -16,7 +16,7 @@ from compare.charts.axis import MAX_POINTS, Axis, from_smooth
 from compare.charts.grid import Cells, from_series, on_mesh, one_by_one, reasons
 from compare.charts.nodes import ROUTES, Nodes, solved
 from compare.charts.result import Chart
-from compare.charts.scenario import Scenario, scenario
+from compare.charts.scenario import Scenario, scenario, singular_across
 from compare.jobs.workers import MapLike, mapper
 from hill import System, checks
 
@@ -106,7 +106,7 @@ def chart(
             high,
             tolerance,
             partial(_points_wanted, wanted.axes),
-            partial(_singular, wanted),
+            partial(singular_across, wanted),
             partial(_covered, stage) if stage else None,
         )
         alone = one_by_one(fitted, wanted.axes, sampler.at, MAX_DIRECT)
@@ -146,20 +146,6 @@ def _points_wanted(axes: tuple[Axis, ...], low: Float, high: Float) -> float:
     return max(points, share * NOMINAL_POINTS)
 
 
-def _singular(wanted: Scenario, low: Float, high: Float) -> int | None:
-    """The axis to cut by where a rectangle of smooth coordinates has a pole."""
-    ends = [
-        sorted((float(a.from_smooth(x)), float(a.from_smooth(y))))
-        for a, x, y in zip(wanted.axes, low, high, strict=True)
-    ]
-    names = wanted.names
-    found = wanted.singular(
-        dict(zip(names, (e[0] for e in ends), strict=True)),
-        dict(zip(names, (e[1] for e in ends), strict=True)),
-    )
-    return None if found is None else names.index(found)
-
-
 def _errors(fitted: surface.Surface, alone: Sequence[Cells]) -> tuple[float, float]:
     """P's error, absolute and over its largest coefficient; of the points alone without series."""
     if any(piece.series is not None for piece in fitted.pieces):
@@ -186,9 +172,7 @@ def _argument(fitted: surface.Surface, alone: Sequence[Cells], wanted: Scenario)
     return np.ascontiguousarray(T.T)
 
 
-def _check(
-    fitted: surface.Surface, wanted: Scenario, route: str
-) -> tuple[float | None, int]:
+def _check(fitted: surface.Surface, wanted: Scenario, route: str) -> tuple[float | None, int]:
     """Largest difference from direct evaluation at random points, and at how many of them.
 
     A point counts where direct evaluation knows P as well as the series claims to. Where there is

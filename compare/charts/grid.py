@@ -1,4 +1,4 @@
-"""P on a chart's grid, a rectangle at a time: from its series, or as evaluated where it has none."""
+"""P on a chart's grid, a rectangle at a time: from its series, or evaluated where it has none."""
 
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -55,9 +55,8 @@ class Cells:
 
     def _index(self, grid: Float) -> Any:
         # an axis along which the number is the same has one entry
-        return np.ix_(
-            *(c if n > 1 else np.zeros(1, int) for c, n in zip(self.chosen, grid.shape, strict=True))
-        )
+        sizes = zip(self.chosen, grid.shape, strict=True)
+        return np.ix_(*(c if n > 1 else np.zeros(1, int) for c, n in sizes))
 
 
 def _chosen(piece: Piece, axes: Sequence[Axis]) -> list[NDArray[np.int_]]:

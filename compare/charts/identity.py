@@ -7,6 +7,7 @@ is neither: a class of the user's, with the functions and constants that its met
 
 import builtins
 import hashlib
+import re
 import sys
 import sysconfig
 from collections.abc import Iterator, Mapping
@@ -23,10 +24,13 @@ OURS = ("hill", "floquet", "compare")
 
 # Of a class's dictionary: what the interpreter puts there, which no method is changed by.
 PASSED_OVER = frozenset(
-    "__module__ __dict__ __weakref__ __doc__ __annotations__ __dataclass_fields__ __slots__ "
-    "__dataclass_params__ __match_args__ __abstractmethods__ _abc_impl __parameters__ "
-    "__firstlineno__ __static_attributes__ __orig_bases__ __annotate_func__ __replace__ "
-    "_is_protocol __annotations_cache__ __protocol_attrs__ __non_callable_proto_members__".split()
+    re.findall(
+        r"\w+",
+        """__module__ __dict__ __weakref__ __doc__ __annotations__ __slots__ __dataclass_fields__
+        __dataclass_params__ __match_args__ __replace__ __abstractmethods__ _abc_impl __parameters__
+        __orig_bases__ _is_protocol __firstlineno__ __static_attributes__ __annotate_func__
+        __annotations_cache__ __protocol_attrs__ __non_callable_proto_members__""",
+    )
 )
 
 
@@ -78,6 +82,7 @@ class _Walk:
         self.seen: dict[int, Any] = {}
 
     def of_value(self, value: Any) -> Iterator[bytes]:
+        """Of a number, an array, a container or an object, by all that it holds."""
         if value is None or isinstance(value, bool | int | float | complex | str | bytes):
             yield f"{type(value).__name__} {value!r}\0".encode()
         elif isinstance(value, np.generic | np.ndarray) and value.dtype != object:
@@ -135,6 +140,7 @@ class _Walk:
         yield from self.of_value(state)
 
     def of_class(self, kind: type) -> Iterator[bytes]:
+        """Of the code of a class and of those that it inherits from, as far as they are own."""
         for base in kind.__mro__:
             yield f"class {base.__qualname__}\0".encode()
             if not _is_own(base.__module__, base):
@@ -161,6 +167,7 @@ class _Walk:
                 yield from self.of_function(one)
 
     def of_function(self, function: Any) -> Iterator[bytes]:
+        """Of its code, its defaults, and what they name."""
         if id(function) in self.seen:
             return
         self.seen[id(function)] = function

@@ -243,7 +243,7 @@ class Nodes:
             return jobs.pop(result[0]), result[1]
         raise ValueError(
             f"workers: the map returned a {type(result).__name__} that is no job's result; a Dask "
-            "client goes in as compare.dask_map(client)"
+            "client goes in as compare.over(client)"
         )
 
     def _remember(self, whole: Iterable[Float]) -> None:

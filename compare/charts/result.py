@@ -14,6 +14,7 @@ from compare.charts.axis import Axis, to_smooth
 from compare.charts.grid import Cells, Omega_and_eta, from_series, on_mesh
 from compare.charts.scenario import Scenario
 from compare.stability.points import Points
+from hill import Singular
 
 Float = NDArray[np.floating[Any]]
 
@@ -102,7 +103,7 @@ class Chart:
 
     @property
     def shared_matrices(self) -> bool:
-        """Whether both routes were given the same matrices, so that only the solution is checked."""
+        """Whether both routes had the same matrices, so that only the solution is checked."""
         return self.scenario.shared_matrices
 
     @property
@@ -166,7 +167,8 @@ class Chart:
         result = np.full(self.T.T.shape, np.inf)
         for cells, Omega, eta in self._cells():
             own = np.full(cells.P.shape[1], np.inf)
-            own[cells.there] = self.scenario.reading.argument_errors(*self._known(cells, Omega, eta))
+            known = self._known(cells, Omega, eta)
+            own[cells.there] = self.scenario.reading.argument_errors(*known)
             result[np.ix_(*cells.chosen)] = own.reshape(cells.shape)
         return np.ascontiguousarray(result.T)
 
@@ -201,14 +203,15 @@ def _at(chart: Chart, values: Mapping[str, ArrayLike]) -> Points:
         found, own = directly(chart, points[without])
         P = np.full((found.shape[1], len(points)), np.nan) if len(P) == 1 else P
         P[:, without], error[without] = found.T, own
-    if np.any(~np.isfinite(error)):
-        there = points[~np.isfinite(error)][0]
-        words = ", ".join(f"{name} = {x:g}" for name, x in zip(names, there, strict=True))
-        raise ValueError(
-            f"{words}: P is beyond a float, so fast does the solution grow"
-            if np.any(np.isinf(P[:, ~np.isfinite(error)][:, 0]))
-            else f"{words}: a coefficient is infinite, the system has no equation there"
-        )
+    lost = np.flatnonzero(~np.isfinite(error))
+    if len(lost):
+        there = dict(zip(names, map(float, points[lost[0]]), strict=True))
+        words = ", ".join(f"{name} = {x:g}" for name, x in there.items())
+        try:
+            chart.scenario.equation(there)
+        except Singular as reason:
+            raise ValueError(f"{words}: {reason}") from None
+        raise ValueError(f"{words}: P is beyond a float, so fast does the solution grow")
     named = dict(zip(names, points.T, strict=True))
     Omega, eta = (np.broadcast_to(v, len(points)) for v in Omega_and_eta(chart.scenario, named))
     return chart.scenario.reading.solve(P.T, error, Omega, eta)

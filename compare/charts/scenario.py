@@ -1,6 +1,7 @@
 """What a chart is of: a system, its forcing, the axes along which some of it varies."""
 
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from itertools import product
 from typing import Any
@@ -9,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from compare.charts.axis import Axis
+from compare.charts.limits import checked, own_equation
 from compare.stability.reading import Reading, reading_of
 from floquet.witness import maker
 from hill import HillEquation, Singular, System, checks
@@ -24,13 +26,6 @@ from hill.system import (
 Float = NDArray[np.floating[Any]]
 Complex = NDArray[np.complexfloating[Any, Any]]
 Values = Mapping[str, float]
-
-MAX_DECAY = 200.0
-"""eta/Omega: exp(-pi eta/Omega) stays above 1e-273."""
-
-MAX_RADIANS = 3000.0
-"""Of the fastest motion in a period; one evaluation then takes a tenth of a second, and a growth as
-fast as that leaves the floats four times over."""
 
 POLE_CLEARANCE = 0.25
 """Widths of a box: a series over it whose nearest pole is farther than this converges by 2.6 a
@@ -96,7 +91,7 @@ class Scenario:
             The system refuses, or what it gives is no `HillEquation`.
         """
         system, forcing = self.at(values)
-        return _own(system, **forcing)
+        return own_equation(system, **forcing)
 
     def equations(self, points: Mapping[str, Float], route: str) -> list[HillEquation]:
         """The equations at many points, their matrices made once where they are the same.
@@ -107,7 +102,7 @@ class Scenario:
         route : {"hill", "floquet"}
             Whose matrices: the system's, or the witness's own where it has some.
         """
-        make = (maker(self.system) if route == "floquet" else None) or _own
+        make = (maker(self.system) if route == "floquet" else None) or own_equation
         systems: dict[Any, Any] = {}
         made: dict[Any, HillEquation] = {}
         found = []
@@ -145,9 +140,12 @@ class Scenario:
         """
         if not hasattr(self.system, "singular_Omega"):
             return None
-        ends = {name: self._widened(name, low[name], high[name]) for name in low}
-        Omega = ends.pop("Omega", None)
-        if Omega is None:
+        ends = {
+            name: self._widened(name, low[name], high[name]) for name in low if name not in FORCING
+        }
+        if "Omega" in low:
+            Omega = self._widened("Omega", low["Omega"], high["Omega"])
+        else:
             fixed = self.forcing["Omega"]
             Omega = fixed * (1.0 - SAME_OMEGA), fixed * (1.0 + SAME_OMEGA)
         corners = [
@@ -162,7 +160,7 @@ class Scenario:
 
     def _widened(self, name: str, low: float, high: float) -> tuple[float, float]:
         margin = POLE_CLEARANCE * (high - low)
-        if name in FORCING:
+        if name == "Omega":
             return max(low - margin, 0.5 * low), high + margin
         own = next(p for p in self.system.parameters if p.name == name)
         return (
@@ -221,18 +219,36 @@ def scenario(
         del given["eta"]
     fixed = {name: float(value) for name, value in given.items()}
     box = {axis.name: (axis.low, axis.high) for axis in drawn}
-    sample: HillEquation | None = None
-    for corner in product(*box.values()):
-        values = dict(zip(box, corner, strict=True))
-        sample = _checked(system, values, fixed) or sample
-    for share in (0.5, 0.382, 0.618):  # every corner on a pole
-        if sample is None:
-            inner = {name: low + share * (high - low) for name, (low, high) in box.items()}
-            sample = _checked(system, inner, fixed)
-    if sample is None:
-        raise ValueError("axes: the system has no equation at any corner, nor in the middle")
-    reading = reading_of(sample)
-    return Scenario(system, drawn, fixed, reading, reading.degree(sample))
+    corners = [dict(zip(box, corner, strict=True)) for corner in product(*box.values())]
+    # every corner may be on a pole
+    inner = [{k: a + share * (b - a) for k, (a, b) in box.items()} for share in (0.5, 0.382)]
+    found = _equations(system, corners, fixed) or _equations(system, inner, fixed)
+    if not found:
+        checked(system, corners[0], fixed)  # says why there is none
+    reading = reading_of(found[0])
+    return Scenario(system, drawn, fixed, reading, reading.degree(found[0]))
+
+
+def _equations(system: System, points: list[dict[str, float]], fixed: Values) -> list[HillEquation]:
+    """Those that there are; `checked` refuses what cannot be charted."""
+    found = []
+    for values in points:
+        with suppress(Singular):
+            found.append(checked(system, values, fixed))
+    return found
+
+
+def singular_across(of: Scenario, low: Float, high: Float) -> int | None:
+    """The axis to cut by where a rectangle of smooth coordinates has a pole, or one is near."""
+    ends = [
+        sorted((float(a.from_smooth(x)), float(a.from_smooth(y))))
+        for a, x, y in zip(of.axes, low, high, strict=True)
+    ]
+    found = of.singular(
+        dict(zip(of.names, (e[0] for e in ends), strict=True)),
+        dict(zip(of.names, (e[1] for e in ends), strict=True)),
+    )
+    return None if found is None else of.names.index(found)
 
 
 def _drawn(axis: Axis | tuple[str, float, float, int], smooth: Mapping[str, str]) -> Axis:
@@ -256,77 +272,3 @@ def _check_names(names: list[str], own: list[str], forcing: Values) -> None:
     missing = {"Omega", "gamma"} - set(names) - set(forcing)
     if missing:
         raise ValueError(f"{min(missing)}: has no value; fix it, or make it an axis")
-
-
-def _checked(system: Any, values: Values, fixed: Values) -> HillEquation | None:
-    """The equation at a point; None on a pole.
-
-    Raises
-    ------
-    ValueError
-        It would take for ever, or leave the floats; the system breaks a promise.
-    """
-    forcing = dict(fixed) | {k: v for k, v in values.items() if k in FORCING}
-    there = varied(system, {k: v for k, v in values.items() if k not in FORCING})
-    where = ", ".join(f"{k} = {v:g}" for k, v in (values or forcing).items())
-    Omega, gamma, eta = (forcing[name] for name in FORCING)
-    checks.positive("Omega", Omega)
-    if abs(eta) > MAX_DECAY * Omega:
-        raise ValueError(
-            f"{where}: eta/Omega = {eta / Omega:.3g} must be at most {MAX_DECAY:g}, or a "
-            "period's decay leaves the floats"
-        )
-    try:
-        model = _own(there, **forcing)
-        _check_promise(there, model, forcing)
-    except Singular:  # the corner's own misfortune
-        return None
-    with np.errstate(over="ignore"):
-        sizes = np.abs(model.F) + abs(gamma) * np.abs(model.G) + sum(map(np.abs, model.H))
-    # Perron: no motion is faster, in whatever units the coordinates are
-    finite = np.all(np.isfinite(sizes))
-    fastest = float(np.max(np.abs(np.linalg.eigvals(sizes)))) ** 0.5 if finite else np.inf
-    if not 2.0 * np.pi * fastest / Omega <= MAX_RADIANS:
-        raise ValueError(
-            f"{where}: the motion turns by {2.0 * np.pi * fastest / Omega:.1e} radians a period, "
-            f"and {MAX_RADIANS:g} at most can be charted"
-        )
-    return model
-
-
-def _check_promise(system: Any, model: HillEquation, forcing: Values) -> None:
-    """Refuse a `depends_on_Omega` that is not kept, as far as one other forcing tells."""
-    moves = getattr(system, "depends_on_Omega", None)
-    if moves is None or model.H:
-        return
-    Omega, gamma, eta = (forcing[name] for name in FORCING)
-    asked = {
-        "Omega": Omega if moves else 1.25 * Omega,
-        "gamma": 0.5 * gamma + 0.125,
-        "eta": 0.5 * eta + 0.03125 * Omega,
-    }
-    other = _own(system, **asked)
-    kept = np.array_equal(other.F, model.F) and np.array_equal(other.G, model.G)
-    if not kept or (other.Omega, other.gamma, other.eta) != tuple(asked.values()):
-        raise ValueError(
-            f"{type(system).__name__}.depends_on_Omega = {moves}: promises F and G that do not "
-            f"move with {'' if moves else 'Omega, '}gamma and eta and a forcing as asked for; "
-            "leave it out, or make them so"
-        )
-
-
-def _own(system: Any, Omega: float, gamma: float, eta: float) -> HillEquation:
-    """The system's own equation.
-
-    Raises
-    ------
-    ValueError
-        It is no `HillEquation`.
-    """
-    found = system.equation(Omega, gamma, eta)
-    if not isinstance(found, HillEquation):
-        raise ValueError(
-            f"{type(system).__name__}.equation: must give a HillEquation, gave a "
-            f"{type(found).__name__}"
-        )
-    return found

@@ -180,9 +180,7 @@ class _Cut:
     why: str
 
 
-def _piece(
-    known: "_Known", a: Float, b: Float, tolerance: float, most: float
-) -> "Piece | _Cut":
+def _piece(known: "_Known", a: Float, b: Float, tolerance: float, most: float) -> "Piece | _Cut":
     """A series that has decayed, or the axis along which it has not.
 
     Without a series where that would take more than `most` nodes.

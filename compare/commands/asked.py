@@ -3,6 +3,7 @@
 import argparse
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 from compare import system_file
 from compare.report.tables import STEPPED, UNIFORM
@@ -45,9 +46,11 @@ def asked(options: argparse.Namespace) -> Described:
     if options.file:
         found = system_file.read(options.file)
     elif options.beam == "stepped":
-        found = Described(SteppedBeam(**STEPPED), kind="stepped", title="stepped beam")
+        stepped: dict[str, Any] = dict(STEPPED)
+        found = Described(SteppedBeam(**stepped), kind="stepped", title="stepped beam")
     else:
-        found = Described(UniformBeam(**UNIFORM), kind="uniform", title="uniform beam")
+        uniform: dict[str, Any] = dict(UNIFORM)
+        found = Described(UniformBeam(**uniform), kind="uniform", title="uniform beam")
     return system_file.with_settings(found, settings(options.set))
 
 

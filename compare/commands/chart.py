@@ -7,13 +7,10 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-from rich import box
-from rich.table import Table
-
 from compare import chart_files
 from compare.chart_picture import NO_PICTURES, QUANTITIES, Mark, picture
-from compare.charts.compute import CHECKS, chart
+from compare.chart_text import describe, ended, told, tongue_table
+from compare.charts.compute import chart
 from compare.charts.nodes import ROUTES
 from compare.charts.result import Chart
 from compare.commands import asked
@@ -22,7 +19,7 @@ from compare.edges.curves import Curve, boundaries
 from compare.edges.instabilities import Instability, instabilities
 from compare.edges.interpolated import axes_of
 from compare.edges.on_chart import ORDERS, tongues
-from compare.edges.tracer import RANGE, TIP, Tongue
+from compare.edges.tongue import Tongue
 from compare.edges.unnamed import Region, unnamed
 from compare.jobs.cluster import connect
 from compare.output import check_apart, check_writable, write_whole
@@ -133,8 +130,8 @@ def run(options: argparse.Namespace) -> int:
             write_whole(options.tongues, chart_files.tongues_csv(result, found, other))
     if found:
         console = terminal()
-        console.print(_listed(found, axes_of(result)[1].name, console.width))
-    for line in (*describe(result), *_ended(found), *map(_told, nameless)):
+        console.print(tongue_table(found, axes_of(result)[1].name, console.width))
+    for line in (*describe(result), *ended(found), *map(told, nameless)):
         print(line)
     return int(not result.routes_agree)
 
@@ -220,91 +217,8 @@ def _printed(result: Chart) -> list[Mark]:
         return []
     table = 1 if isinstance(result.system, UniformBeam) else 2
     printed = all_rows((table,))
-    own = [row for row in printed if row.beam(getattr(result.system, "modes", 0) or 2) == result.system]
-    if len(own) < len(printed):
+    modes = getattr(result.system, "modes", 2)
+    if any(row.beam(modes) != result.system for row in printed):
         return []
     at = [[float(getattr(row, axis.name)) for axis in result.axes] for row in printed]
     return [Mark(x, y, row.T > 0.0) for (x, y), row in zip(at, printed, strict=True)]
-
-
-def describe(result: Chart) -> list[str]:
-    """What was found, in a few lines."""
-    unstable, undecided = float(np.mean(result.unstable())), float(np.mean(result.undecided()))
-    size = " x ".join(str(axis.count) for axis in result.axes)
-    lines = [
-        f"{size} points from {result.nodes} evaluations of P in {result.seconds:.1f} s"
-        + (f" ({result.resumed} of them were on disk)" if result.resumed else "")
-        + f"; {_share(unstable)} unstable, {_share(undecided)} undecided, T at most "
-        f"{np.max(result.T):.5f}.",
-        f"P is known to {result.relative_error:.0e} of its largest coefficient; {_checked(result)}.",
-    ]
-    lines += [f"One by one: {count} points, where {why}." for why, count in result.one_by_one.items()]
-    if result.route == "both":
-        lines.append(
-            f"The two routes differ by {result.disagreement:.0e} of P at the nodes"
-            + (", with the same matrices." if result.shared_matrices else ".")
-        )
-    return lines
-
-
-def _checked(result: Chart) -> str:
-    """What the random points say of the series."""
-    if result.checked is not None:
-        few = f"at {result.checks} of {CHECKS}" if result.checks < CHECKS else f"at {CHECKS}"
-        return f"{few} random points the series is off by {result.checked:.0e} at most"
-    if result.one_by_one and result.direct == result.T.size:
-        return "there is no series to be checked"
-    return f"the series could be checked at none of {CHECKS} random points"
-
-
-def _ended(found: Sequence[Instability]) -> Iterator[str]:
-    """The tongues that go no further, and why, where that is not plain."""
-    for i in found:
-        ends = ((i.tongue.begins, "begins", 0), (i.tongue.ends, "ends", -1))
-        for why, word, at in ends:
-            if why not in (RANGE, TIP):
-                yield f"{i.resonance.name} {word} at {i.tongue.y[at]:.5g}: {why}."
-
-
-def _told(region: Region) -> str:
-    where = ", ".join(f"{name} {low:.5g} to {high:.5g}" for name, low, high in region.extent)
-    return f"Unstable without a tongue's name: {where}, T up to {region.T:.5f}."
-
-
-def _share(value: float) -> str:
-    """Per cent; what is more than nothing is not called 0."""
-    return f"{value:.1%}" if value == 0.0 or value >= 5e-4 else f"{value:.0e}".join(("", " of it"))
-
-
-NARROW = 110
-"""Columns below which the list of tongues leaves out what the others imply."""
-
-
-def _listed(found: Sequence[Instability], other: str, width: int) -> Table:
-    """The tongues, widest first; on a narrow terminal without types, tips and Hsu's values."""
-    table = Table(box=box.SIMPLE, pad_edge=False, padding=(0, 1, 0, 0))
-    damped = other == "gamma" and any(np.isfinite(i.critical_gamma) for i in found)
-    columns: list[tuple[str, Callable[[Instability], float], int, bool]] = [
-        ("tip at Omega", lambda i: i.tips[0][0] if i.tips else np.nan, 6, False),
-        (f"tip at {other}", lambda i: i.tips[0][1] if i.tips else np.nan, 5, False),
-        (f"at {other}", lambda i: i.y, 4, True),
-        ("width", lambda i: i.width, 5, True),
-        ("Hsu's", lambda i: i.width_Hsu or np.nan, 5, False),
-        ("largest T", lambda i: i.T, 5, True),
-        ("at Omega", lambda i: i.Omega, 5, True),
-    ]
-    if damped:
-        columns.append(("critical gamma", lambda i: i.critical_gamma, 5, True))
-        columns.append(("Hsu's", lambda i: i.critical_gamma_Hsu, 5, False))
-    shown = [c for c in columns if width >= NARROW or c[3]]
-    table.add_column("resonance", no_wrap=True)
-    if width >= NARROW:
-        table.add_column("type")
-    for head, *_ in shown:
-        table.add_column(head, justify="right")
-    for i in found:
-        numbers = [(value(i), digits) for _, value, digits, _ in shown]
-        words = [f"{v:.{digits}f}" if np.isfinite(v) else "-" for v, digits in numbers]
-        kind = [i.resonance.type] if width >= NARROW else []
-        table.add_row(i.resonance.name, *kind, *words)
-    return table

@@ -58,8 +58,9 @@ def run(options: argparse.Namespace) -> int:
         if "Omega" not in forcing:
             forcing["Omega"] = _resonant(wanted.system)
     scenario(wanted.system, (), forcing)
+    beam: Any = wanted.system
     with working("differentiating over one period"):
-        found = beam_sensitivities(wanted.system, **forcing)
+        found = beam_sensitivities(beam, **forcing)
     suffix = options.output.suffix[1:] if options.output else ""
     if (options.format or suffix) == "json":
         _write(json.dumps(content(wanted.kind, found), indent=2) + "\n", options.output)

@@ -12,10 +12,11 @@ from compare.charts.axis import Axis
 from compare.charts.result import Chart
 from compare.edges.interpolated import InterpolatedField, axes_of, on_surface
 from compare.edges.on_chart import ORDERS, merged, stations, tongues
-from compare.edges.tracer import Tongue
+from compare.edges.tongue import Tongue
 from hill.averaging import Resonance, critical_gamma, half_width
 
 Float = NDArray[np.floating[Any]]
+EdgeFunction = Callable[[Float, Float, float], Float]
 EPS = float(np.finfo(float).eps)
 
 # Shares of an edge's own Omega at which its slope is taken; central, so it is off by their square.
@@ -158,9 +159,7 @@ def _edge_error(curves: InterpolatedField, tongue: Tongue) -> Float:
     return worst
 
 
-def _moved(
-    function: Callable[[Float, Float, float], Float], P: Float, Omega: float, eta: float, error: float
-) -> float:
+def _moved(f: EdgeFunction, P: Float, Omega: float, eta: float, error: float) -> float:
     """How far the function moves where every coefficient moves by `error`."""
     # a step well above rounding, and small beside P; the function is a polynomial in p
     step = max(1e-6, error)
@@ -169,6 +168,6 @@ def _moved(
         sides = np.array([P, P])
         sides[0, j] -= step
         sides[1, j] += step
-        f = function(sides, np.full(2, Omega), eta)
-        total += abs(f[1] - f[0]) / (2.0 * step)
+        values = f(sides, np.full(2, Omega), eta)
+        total += abs(values[1] - values[0]) / (2.0 * step)
     return total * error

@@ -9,9 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from compare.charts import chebyshev
-from compare.charts.axis import Axis
+from compare.charts.axis import Axis, from_smooth
 from compare.charts.result import Chart, directly
-from compare.charts.surface import Piece
+from compare.charts.scenario import singular_across
+from compare.charts.surface import Piece, fit
 from compare.edges.field import PolynomialField
 from compare.stability.indicators import BESIDE_POLE, TAIL, NotSmooth
 from compare.stability.reading import Reading
@@ -23,6 +24,12 @@ Complex = NDArray[np.complexfloating[Any, Any]]
 
 SECTIONS = 512
 """Lines of constant y whose series are kept: one resonance after another is cut at the same."""
+
+TOLERANCE = 1e-11
+"""Of the series beside the chart, over P's largest coefficient; the chart's own default."""
+
+NODES_BESIDE = 1200
+"""Nodes of one piece of them, at most: what a range as wide as the report's charts takes."""
 
 MAX_ALONE = 65
 """Points of one line that are evaluated without a series: an interpolant of degree 64."""
@@ -36,9 +43,12 @@ class InterpolatedField(PolynomialField):
     ----------
     chart : Chart
         Of Omega and one other parameter.
+    pieces : tuple of Piece
+        The chart's, and others beside it.
     """
 
     chart: Chart
+    pieces: tuple[Piece, ...]
     _section: Callable[[int, float], Float] = field(repr=False, compare=False)
 
     @property
@@ -81,7 +91,7 @@ class InterpolatedField(PolynomialField):
         u, v = 1.0 / Omega, float(other.to_smooth(np.array(y)))
         P = np.ones((len(u), self.chart.scenario.coordinates + 1))
         errors = np.full(len(u), np.nan)
-        for k, piece in enumerate(self.chart.surface.pieces):
+        for k, piece in enumerate(self.pieces):
             inside = (u >= piece.low[i]) & (u <= piece.high[i])
             if piece.series is None or not piece.low[1 - i] <= v <= piece.high[1 - i]:
                 continue
@@ -129,8 +139,14 @@ def axes_of(chart: Chart) -> tuple[Axis, Axis]:
     return chart.axes[k], chart.axes[1 - k]
 
 
-def on_surface(chart: Chart) -> InterpolatedField:
-    """The chart's equations, with P from its series.
+def on_surface(chart: Chart, low: float = np.inf, high: float = 0.0) -> InterpolatedField:
+    """The chart's equations, with P from its series, and from others where Omega is beyond them.
+
+    Parameters
+    ----------
+    chart : Chart
+    low, high : float, optional
+        How far Omega will be asked for; the chart's own range where that is enough.
 
     Raises
     ------
@@ -152,9 +168,31 @@ def on_surface(chart: Chart) -> InterpolatedField:
         return matrices(value).forced(**chart.scenario.at(values)[1])
 
     along_y = 1 - chart.axes.index(Omega_axis)
-    section = lru_cache(maxsize=SECTIONS)(partial(_section, chart.surface.pieces, along_y))
+    pieces = (*chart.surface.pieces, *_beside(chart, low, high))
+    section = lru_cache(maxsize=SECTIONS)(partial(_section, pieces, along_y))
     route = chart.scenario.reading.polynomials["floquet"]
-    return InterpolatedField(equation, lambda e: route([e]).coefficients[0], chart, section)
+    return InterpolatedField(equation, lambda e: route([e]).coefficients[0], chart, pieces, section)
+
+
+def _beside(chart: Chart, low: float, high: float) -> tuple[Piece, ...]:
+    """Series over the Omega below and above the chart's, where a line at a time would be dear."""
+    axes = chart.axes
+    k = chart.scenario.names.index("Omega")
+    first, last = np.array([axis.span for axis in axes]).T
+    found: list[Piece] = []
+    for start, end in ((1.0 / high if high else np.inf, first[k]), (last[k], 1.0 / low)):
+        if start < end:
+            a, b = first.copy(), last.copy()
+            a[k], b[k] = start, end
+            found += fit(
+                lambda smooth: directly(chart, from_smooth(axes, smooth)),
+                a,
+                b,
+                TOLERANCE,
+                lambda a, b: NODES_BESIDE,
+                partial(singular_across, chart.scenario),
+            ).pieces
+    return tuple(found)
 
 
 def _section(pieces: tuple[Piece, ...], along_y: int, k: int, v: float) -> Float:

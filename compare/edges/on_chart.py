@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 from compare.charts.axis import Axis
 from compare.charts.result import Chart
 from compare.edges.interpolated import axes_of, on_surface
-from compare.edges.tracer import DOUBLINGS, Tongue, TongueTracer, follow
+from compare.edges.tongue import Tongue
+from compare.edges.tracer import DOUBLINGS, MIN_SHARE, TongueTracer, follow
 from hill.averaging import first_order
 
 STATIONS = 33
@@ -18,6 +19,10 @@ STATIONS = 33
 
 ORDERS = 3
 """Resonances are followed up to this order where nothing else is asked."""
+
+FARTHEST = 4.0
+"""Factor by which a series may reach beyond the chart's Omega; a window farther out is evaluated
+line by line."""
 
 SAME = 0.02
 """Two tongues are one where their edges differ by no more than this share of the width; they are
@@ -56,17 +61,21 @@ def tongues(
         As for `axes_of`.
     """
     x, y = axes_of(chart)
-    curves = on_surface(chart)
+    own = on_surface(chart)
     at = stations(y)
-    count = len(curves.frequencies(at[0]))
+    count = len(own.frequencies(at[0]))
     wanted = [
         replace(resonance, order=order)
         for resonance in first_order(count, chart.scenario.frequency_names(count))
         for order in range(1, orders + 1)
     ]
+    windows = [_window(TongueTracer(own, resonance), at, x) for resonance in wanted]
+    seen = [window for window in windows if window]
+    low, high = (min(a for a, _ in seen), max(b for _, b in seen)) if seen else (np.inf, 0.0)
+    curves = on_surface(chart, max(low, x.low / FARTHEST), min(high, x.high * FARTHEST))
     found: list[Tongue] = []
-    for done, resonance in enumerate(wanted, start=1):
-        if _reaches(TongueTracer(curves, resonance), at, x):
+    for done, (resonance, window) in enumerate(zip(wanted, windows, strict=True), start=1):
+        if window:
             found += [
                 tongue
                 for tongue in follow(curves, resonance, at)
@@ -77,13 +86,16 @@ def tongues(
     return distinct(found)
 
 
-def _reaches(tracer: TongueTracer, at: Sequence[float], x: Axis) -> bool:
-    """Whether any window that the tracer may look into has a part of the chart in it."""
-    for y in at:
-        Omega, reach = tracer.Omega(y), 2.0**DOUBLINGS * tracer.window(y)
-        if Omega - reach <= x.high and Omega + reach >= x.low:
-            return True
-    return False
+def _window(tracer: TongueTracer, at: Sequence[float], x: Axis) -> tuple[float, float] | None:
+    """From where to where the tracer looks at first; None where it never looks into the chart."""
+    Omega = np.array([tracer.Omega(y) for y in at])
+    reach = np.array([tracer.window(y) for y in at])
+    there = np.isfinite(Omega) & np.isfinite(reach) & (Omega > 0.0)
+    farthest = 2.0**DOUBLINGS * reach
+    if not np.any(there & (Omega - farthest <= x.high) & (Omega + farthest >= x.low)):
+        return None
+    low, high = (Omega - reach)[there], (Omega + reach)[there]
+    return float(max(low.min(), MIN_SHARE * Omega[there].min())), float(high.max())
 
 
 def distinct(found: Sequence[Tongue]) -> tuple[Tongue, ...]:

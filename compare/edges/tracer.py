@@ -15,6 +15,16 @@ from numpy.typing import NDArray
 from scipy.optimize import brentq
 
 from compare.edges.field import PolynomialField
+from compare.edges.tongue import (
+    NOT_REAL,
+    RANGE,
+    TIP,
+    UNSEEN,
+    Gap,
+    Pair,
+    Section,
+    Tongue,
+)
 from compare.stability.indicators import (
     BESIDE_POLE,
     NotSmooth,
@@ -26,7 +36,6 @@ from hill import Singular
 from hill.averaging import Resonance, half_width
 
 Float = NDArray[np.floating[Any]]
-Pair = tuple[float, float]
 
 # Half window over the half width expected, and what is added for the shift of the centre, which is
 # of second order: this share of gamma^2 Omega.
@@ -40,61 +49,6 @@ POLE_MARGIN = 0.1
 # Points added towards the tip of a tongue, as squares of these shares of a step: edges meet there
 # like a parabola.
 TOWARDS_TIP = (0.1, 0.25, 0.45, 0.7)
-
-RANGE, TIP = "the end of the range", "its edges meet"
-NOT_REAL = "the natural frequencies are not real"
-UNSEEN = "its edges are not seen"
-"""Why a tongue goes no further."""
-
-
-@dataclass(frozen=True, eq=False)
-class Tongue:
-    """One instability's boundary: two edges in Omega at each y, equal where it closes.
-
-    Attributes
-    ----------
-    resonance : Resonance
-    y, lower, upper : (k,) ndarray
-    begins, ends : str
-        Why it goes no further at its first and its last y.
-    """
-
-    resonance: Resonance
-    y: Float
-    lower: Float
-    upper: Float
-    begins: str = RANGE
-    ends: str = RANGE
-
-    def at(self, y: float) -> Pair | None:
-        """Edges at y by straight lines; None beyond its ends."""
-        if not self.y[0] <= y <= self.y[-1]:
-            return None
-        return float(np.interp(y, self.y, self.lower)), float(np.interp(y, self.y, self.upper))
-
-
-@dataclass(frozen=True)
-class Section:
-    """A tongue at one y: edges if it is there, and its deepest point."""
-
-    y: float
-    Omega: float
-    edges: Pair | None
-    bottom: float
-    depth: float
-
-    @property
-    def offsets(self) -> Pair:
-        """Edges from the resonance."""
-        lower, upper = self.edges or (self.bottom, self.bottom)
-        return lower - self.Omega, upper - self.Omega
-
-
-@dataclass(frozen=True)
-class Gap:
-    """No section here, and why."""
-
-    why: str
 
 
 @dataclass(frozen=True)
@@ -138,18 +92,17 @@ class TongueTracer:
         width, undamped = (half_width(self.resonance, equation, damped=d) for d in (True, False))
         low, high = expected or (-width, width)
         reach = REACH * max(undamped, 0.5 * (high - low)) + SHIFT * equation.gamma**2 * Omega
-        for doubling in range(DOUBLINGS + 1):
+        section: Section | None = None
+        for _ in range(DOUBLINGS + 1):
             try:
                 section = self._within(y, Omega, (low, high), reach, equation.damping)
             except NotSmooth as reason:
                 return Gap(reason.why)
-            if section is None:
-                return Gap(UNSEEN)
             # unstable, but edges out of sight: the tongue is wider than first order makes it
-            if section.edges is not None or section.depth >= 0.0 or doubling == DOUBLINGS:
+            if section is None or section.edges is not None or section.depth >= 0.0:
                 break
             reach *= 2.0
-        return section
+        return section or Gap(UNSEEN)
 
     def _within(
         self, y: float, Omega: float, guess: Pair, reach: float, eta: float
@@ -250,9 +203,9 @@ def follow(
         here = _station(tracer, y, open_piece, within)
         there = isinstance(here, Section) and here.edges is not None
         tip: Section | None = None
-        if isinstance(here, Section) and isinstance(last, Section):
-            if there != (open_piece is not None):
-                tip = tracer.refine_tip(last, here)
+        turned = there != (open_piece is not None)
+        if turned and isinstance(here, Section) and isinstance(last, Section):
+            tip = tracer.refine_tip(last, here)
         if there and open_piece is None:
             open_piece = _Piece(RANGE if last is None else _why(last, tip), [])
             pieces.append(open_piece)

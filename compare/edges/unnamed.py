@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 from scipy.ndimage import binary_dilation, label
 
 from compare.charts.result import Chart
-from compare.edges.tracer import Tongue
 from compare.edges.interpolated import axes_of
+from compare.edges.tongue import Tongue
 
 Float = NDArray[np.floating[Any]]
 

@@ -102,7 +102,7 @@ class _Cluster:
         out = {future.key: future for future in futures}
         try:
             for future in arranged(futures):
-                with _losses_told():
+                with _translate_losses():
                     result = future.result()
                 del out[future.key]
                 future.release()
@@ -113,7 +113,7 @@ class _Cluster:
 
 
 @contextmanager
-def _losses_told() -> Iterator[None]:
+def _translate_losses() -> Iterator[None]:
     from distributed import CancelledError, KilledWorker
     from distributed.comm import CommClosedError
 

@@ -53,7 +53,7 @@ def mapper(workers: int | MapLike, chunk: int = 1) -> Iterator[MapLike]:
         kind = type(workers).__name__
         raise ValueError(
             f"workers = {kind}: must be a number, or a function that maps like map, such as an "
-            "executor's .map or compare.jobs.cluster.over(client)"
+            "executor's .map or compare.over(client)"
         )
     count = cores() if workers == ALL else checks.count("workers", workers, least=1)
     if count == 1:
@@ -85,18 +85,18 @@ class _Processes:
         self._pool, self._chunk = pool, chunk
 
     def __call__(self, function: Callable[[Any], Any], jobs: Iterable[Any]) -> Iterator[Any]:
-        with _deaths_told():
+        with _translate_worker_loss():
             yield from self._pool.map(function, jobs, chunksize=self._chunk)
 
     def unordered(self, function: Callable[[Any], Any], jobs: Iterable[Any]) -> Iterator[Any]:
         """Results as they are ready."""
-        with _deaths_told():
+        with _translate_worker_loss():
             for future in as_completed([self._pool.submit(function, job) for job in jobs]):
                 yield future.result()
 
 
 @contextmanager
-def _deaths_told() -> Iterator[None]:
+def _translate_worker_loss() -> Iterator[None]:
     try:
         yield
     except BrokenProcessPool:

@@ -12,8 +12,8 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from compare.edges.field import PolynomialField as Family
 from compare.stability import indicators
-from compare.tongues.boundaries import Family
 from floquet import weak_form
 from floquet.unchecked import unchecked_growth, unchecked_polynomials
 from floquet.weak_form import galerkin

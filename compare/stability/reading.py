@@ -69,9 +69,13 @@ def _argument(P: Float, Omega: Float, eta: Float) -> Float:
     return np.asarray(log_R(P) * (Omega / np.pi) - eta)
 
 
+def _coordinates(equation: Any) -> int:
+    return int(equation.n)
+
+
 IN_Z = Reading(
     variable="z",
-    degree=lambda equation: int(equation.n),
+    degree=_coordinates,
     polynomials={"hill": by_hill.polynomials, "floquet": by_floquet.polynomials},
     argument=_argument,
     growth=growth,

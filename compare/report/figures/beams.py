@@ -6,10 +6,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from compare.edges.field import PolynomialField as Family
 from compare.report.figures.catalogue import GAMMA, Figure
 from compare.report.one_route import Beam, RouteName, family
 from compare.report.tables import Row, rows
-from compare.tongues.boundaries import Family
 from hill import SteppedBeam, UniformBeam
 from hill.averaging import Resonance, first_order, modal
 

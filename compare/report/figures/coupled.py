@@ -4,13 +4,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from compare.edges.tongue import Tongue
+from compare.edges.tracer import follow
 from compare.report.figures.beams import RESONANCES, beam_of, family_of, spread
 from compare.report.figures.catalogue import GAMMA, Figure
 from compare.report.figures.data import FigureData, Float, Series, largest
 from compare.report.figures.regions import edge, expected, marks, parameters, to_zero
 from compare.report.one_route import RouteName, equation, solve
 from compare.stability.indicators import crossings, indicator, zero
-from compare.tongues.boundaries import Tongue, follow
 from hill.averaging import Resonance
 
 SLOW = Resonance(0, 0)

@@ -5,12 +5,14 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from compare.edges.tongue import Tongue
+from compare.edges.tracer import TongueTracer as Cutter
+from compare.edges.tracer import follow
 from compare.report.figures.beams import RESONANCES, THIRD, family_of, printed, spread
 from compare.report.figures.catalogue import FIGURES, Figure
 from compare.report.figures.data import FigureData, Float, Series, largest
 from compare.report.tables import number
 from compare.stability.indicators import Function, indicator, zero
-from compare.tongues.boundaries import Cutter, Tongue, follow
 from hill.averaging import Resonance, half_width
 
 # Below this share of the widest tongue, first-order theory is taken to give none.

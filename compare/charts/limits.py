@@ -1,0 +1,90 @@
+"""What can be charted: a point's equation, or one line that says why there is none."""
+
+from collections.abc import Mapping
+from contextlib import suppress
+from typing import Any
+
+import numpy as np
+
+from hill import HillEquation, Singular, checks
+from hill.averaging import fastest_motion
+from hill.system import FORCING, varied
+
+Values = Mapping[str, float]
+
+MAX_DECAY = 200.0
+"""eta/Omega: exp(-pi eta/Omega) stays above 1e-273."""
+
+MAX_RADIANS = 3000.0
+"""Of the fastest motion in a period; one evaluation then takes a tenth of a second, and a growth as
+fast as that leaves the floats four times over."""
+
+
+def checked(system: Any, values: Values, fixed: Values) -> HillEquation:
+    """The equation at a point.
+
+    Raises
+    ------
+    Singular
+        There is none.
+    ValueError
+        It would take for ever, or leave the floats; the system breaks a promise.
+    """
+    forcing = dict(fixed) | {k: v for k, v in values.items() if k in FORCING}
+    there = varied(system, {k: v for k, v in values.items() if k not in FORCING})
+    where = ", ".join(f"{k} = {v:g}" for k, v in (values or forcing).items())
+    Omega, eta = forcing["Omega"], forcing["eta"]
+    checks.positive("Omega", Omega)
+    if abs(eta) > MAX_DECAY * Omega:
+        raise ValueError(
+            f"{where}: eta/Omega = {eta / Omega:.3g} must be at most {MAX_DECAY:g}, or a "
+            "period's decay leaves the floats"
+        )
+    model = own_equation(there, **forcing)
+    with suppress(Singular):  # the other forcing's own misfortune
+        _check_promise(there, model, forcing)
+    radians = model.period * fastest_motion(model)
+    if not radians <= MAX_RADIANS:
+        raise ValueError(
+            f"{where}: the motion turns by {radians:.1e} radians a period, and "
+            f"{MAX_RADIANS:g} at most can be charted"
+        )
+    return model
+
+
+def _check_promise(system: Any, model: HillEquation, forcing: Values) -> None:
+    """Refuse a `depends_on_Omega` that is not kept, as far as one other forcing tells."""
+    moves = getattr(system, "depends_on_Omega", None)
+    if moves is None or model.H:
+        return
+    Omega, gamma, eta = (forcing[name] for name in FORCING)
+    asked = {
+        "Omega": Omega if moves else 1.25 * Omega,
+        "gamma": 0.5 * gamma + 0.125,
+        "eta": 0.5 * eta + 0.03125 * Omega,
+    }
+    other = own_equation(system, **asked)
+    kept = np.array_equal(other.F, model.F) and np.array_equal(other.G, model.G)
+    if not kept or (other.Omega, other.gamma, other.eta) != tuple(asked.values()):
+        raise ValueError(
+            f"{type(system).__name__}.depends_on_Omega = {moves}: promises F and G that do not "
+            f"move with {'' if moves else 'Omega, '}gamma and eta and a forcing as asked for; "
+            "leave it out, or make them so"
+        )
+
+
+def own_equation(system: Any, Omega: float, gamma: float, eta: float) -> HillEquation:
+    """The system's own equation.
+
+    Raises
+    ------
+    ValueError
+        It is no `HillEquation`.
+    """
+    found = system.equation(Omega, gamma, eta)
+    if not isinstance(found, HillEquation):
+        raise ValueError(
+            f"{type(system).__name__}.equation: must give a HillEquation, gave a "
+            f"{type(found).__name__}"
+        )
+    return found
