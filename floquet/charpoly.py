@@ -1,6 +1,6 @@
 """Characteristic polynomials of small matrices, and how errors of those move them."""
 
-from math import frexp
+from math import comb, frexp
 from typing import Any
 
 import numpy as np
@@ -70,6 +70,29 @@ def characteristic_polynomial(A: Float, scale: Float) -> tuple[Float, Float, Flo
         B = A @ B + p[k + 1] * np.eye(n)
     rounding[1:] += 4.0 * n * EPS * np.abs(np.poly(-np.abs(values)))[1:]
     return p, sensitivity, rounding
+
+
+def beyond_first_order(A: Float, off: float) -> Float:
+    """What errors of A move p by beyond the first order, at most: (n + 1,), highest power first.
+
+    p_k moves by C(n, k) sum_i s_(k-i) off^i over i = 1 .. k, s_j the elementary symmetric function
+    of the k largest singular values (Ipsen and Rehman, 2008, Theorem 3.5). Where A has several
+    small ones the later terms are the larger.
+
+    Parameters
+    ----------
+    A : (n, n) ndarray
+    off : float
+        Bound on the 2-norm of the errors.
+    """
+    n = len(A)
+    sigma = np.linalg.svd(A, compute_uv=False)
+    moved, s = np.zeros(n + 1), np.zeros(n + 1)
+    s[0] = 1.0
+    for k in range(1, n + 1):
+        s[1 : k + 1] += sigma[k - 1] * s[:k]
+        moved[k] = comb(n, k) * sum(float(s[k - i]) * off**i for i in range(2, k + 1))
+    return moved
 
 
 def _whole_numbers(A: Float) -> tuple[Any, int]:

@@ -5,16 +5,16 @@ product is the monodromy matrix; multipliers that the product has lost, as they 
 rounding, come from the parts themselves (`floquet.general.modes`).
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from floquet.accuracy import OVERFLOW, ROUNDING_SAFETY, SAFETY, Bounded, bounded
 from floquet.arrays import EPS, Float
-from floquet.charpoly import characteristic_polynomial
+from floquet.charpoly import beyond_first_order, characteristic_polynomial
 from floquet.eigenvalues import discs_from_matrix, discs_from_polynomial, sorted_eigenvalues
 from floquet.general.modes import condition, merged, periodic_discs
-from floquet.growth import LogDiscs, growth_from_multipliers, logarithms
+from floquet.growth import TINY, LogDiscs, growth_from_multipliers, logarithms
 from floquet.integrate.methods import METHODS
 from floquet.integrate.normal_form import NormalForm, normal_form
 from floquet.integrate.parts import Grid, parts_needed
@@ -61,6 +61,10 @@ def general_monodromy(
         run = _run(form, method, steps, SHORT_STEPS, SHORT_CHECK_STEPS)
     floor = METHODS[method].parts_floor
     found = bounded(run.product, run.product_check, run.rounding, ULPS, floor)
+    further = beyond_first_order(run.product, float(np.linalg.norm(found.matrix_error)))
+    # a coefficient that underflows is not known to be 0
+    further[1:] += TINY
+    found = replace(found, errors=found.errors + further)
     families = _families(run, found, floor, decays=decays)
     m = len(run.product)
     growth = growth_from_multipliers(families, form.period, form.period * form.trace / m)
