@@ -15,8 +15,9 @@ if TYPE_CHECKING:
     from compare.edges.on_chart import tongues
     from compare.edges.tongue import Tongue
     from compare.jobs.cluster import over
+    from compare.publication import Publication
     from compare.report.row import Outcome
-    from compare.report.run import Report, verify
+    from compare.verification import Report, verify
 
 _HOMES = {
     "Chart": "compare.charts.result",
@@ -24,7 +25,8 @@ _HOMES = {
     "Curve": "compare.edges.curves",
     "Instability": "compare.edges.instabilities",
     "Outcome": "compare.report.row",
-    "Report": "compare.report.run",
+    "Publication": "compare.publication",
+    "Report": "compare.verification",
     "Tongue": "compare.edges.tongue",
     "boundaries": "compare.edges.curves",
     "chart": "compare.charts.compute",
@@ -32,7 +34,7 @@ _HOMES = {
     "instabilities": "compare.edges.instabilities",
     "over": "compare.jobs.cluster",
     "tongues": "compare.edges.on_chart",
-    "verify": "compare.report.run",
+    "verify": "compare.verification",
 }
 
 __all__ = [
@@ -41,6 +43,7 @@ __all__ = [
     "Curve",
     "Instability",
     "Outcome",
+    "Publication",
     "Report",
     "Tongue",
     "boundaries",

@@ -102,6 +102,8 @@ def _all() -> dict[str, tuple[list[str], str]]:
         add(f"table {value!r}", ["--table", value])
     for value in ("T9-01", "T1-99", "", "1", "T1", "T3-01c"):
         add(f"row {value!r}", ["--row", value], "row")
+    for value in ("", "mathiu", "Kincaid", "all"):
+        add(f"publication {value!r}", ["--publication", value], "publication")
     for value in ("0", "-1", "x", "1.5", "1000", "1e9", "99999999999"):
         add(f"modes {value}", ["--modes", value])
     for value in ("0", "-2", "x", "1e99"):

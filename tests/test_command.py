@@ -14,11 +14,12 @@ import pytest
 from commands import refusal
 
 import compare.commands.rows as rows_command
+from compare import verification_text as render
 from compare import verify
 from compare.__main__ import main
-from compare.report import render
+from compare.publications.kincaid import PUBLICATION
 from compare.report.row import Outcome
-from compare.report.run import Report
+from compare.verification import Report
 
 ONE = ["--row", "T1-12"]
 
@@ -77,7 +78,7 @@ def test_text_fits_the_terminal(
 
 
 def broken(outcome: Outcome, **changes: object) -> Report:
-    return Report((replace(outcome, **changes),))
+    return Report((replace(outcome, **changes),), PUBLICATION)
 
 
 def test_exit_status_1_where_the_routes_disagree(

@@ -5,8 +5,9 @@ from pathlib import Path
 
 import pytest
 
+from compare.publications.kincaid import check
 from compare.report.errata import errata
-from compare.report.row import Outcome, check
+from compare.report.row import Outcome
 from compare.report.tables import all_rows
 
 errata_page = import_module("compare.report.errata_page")

@@ -155,7 +155,7 @@ def may_print(name: str) -> bool:
     return (
         name in ("compare/__main__.py", "compare/report/recover.py")
         or name.startswith(
-            ("compare/report/render", "compare/crosscheck_text", "compare/commands/")
+            ("compare/verification_text", "compare/crosscheck_text", "compare/commands/")
         )
         or name.endswith("_page.py")
     )

@@ -13,11 +13,11 @@ from typing import Any
 import numpy as np
 import pytest
 
+from compare.publications.kincaid import check
 from compare.report.match import distance
 from compare.report.program.deck import constants
 from compare.report.program.listing import Case, coefficients, stab
 from compare.report.recover import T_AS_RUN, Z_AS_RUN
-from compare.report.row import check
 from compare.report.tables import Row, all_rows, corrected
 from hill import HillEquation, SteppedBeam, UniformBeam, characteristic
 

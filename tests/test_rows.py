@@ -7,11 +7,12 @@ from importlib import import_module
 import numpy as np
 import pytest
 
+from compare.publications.kincaid import check
 from compare.report.errata import is_open
 from compare.report.program.deck import constants
 from compare.report.program.listing import stab
 from compare.report.recover import HALF_UNIT, T_AS_RUN, Z_AS_RUN, recover
-from compare.report.row import Outcome, check
+from compare.report.row import Outcome
 from compare.report.tables import (
     Row,
     all_rows,
@@ -63,9 +64,9 @@ def T_of(z: np.ndarray, Omega: float) -> np.ndarray:
 
 def miss(row: Row, T: float, z: np.ndarray) -> tuple[float, float]:
     """How far z and T are from the row as corrected; z is 0 where none is printed."""
-    mended = corrected(row)
-    apart = match.distance(z, mended.z) if mended.z else 0.0
-    return apart, abs(max(T, 0.0) - mended.T)
+    corrected_row = corrected(row)
+    apart = match.distance(z, corrected_row.z) if corrected_row.z else 0.0
+    return apart, abs(max(T, 0.0) - corrected_row.T)
 
 
 # ---- the two routes ------------------------------------------------------------------------------
@@ -259,9 +260,9 @@ def test_table_3_as_run(line: int) -> None:
 def test_table_3_is_run_at_resonances_with_twice_the_frequency() -> None:
     beam = UniformBeam(T0=20.0, K_theta=0.5, xi_G=0.5)
     named = dict(zip(("(B)", "(1)", "(2)"), beam.natural_frequencies(), strict=True))
-    mended = {"T3-04": "omega_(B) + omega_(1)"}
+    corrected_row = {"T3-04": "omega_(B) + omega_(1)"}
     for line in printed_lines(3):
-        label = mended.get(line["id"], line["resonance"])
+        label = corrected_row.get(line["id"], line["resonance"])
         if label.startswith("2 "):
             expected = 2.0 * named[label.removeprefix("2 omega_")]
         else:

@@ -8,11 +8,12 @@ import pytest
 from numpy.polynomial import chebyshev
 
 from compare import verify
+from compare.publications.kincaid import PUBLICATION
 from compare.report.program.deck import constants
 from compare.report.program.listing import Case, coefficients
 from compare.report.render import decimal
-from compare.report.run import Report
 from compare.stability.indicators import edge_function
+from compare.verification import Report
 from floquet.sensitivity.derivative import NODES, _on
 from floquet.sensitivity.equation import Derivatives
 from floquet.sensitivity.system import _chain
@@ -47,7 +48,8 @@ def test_the_summary_counts() -> None:
             ),
             replace(second, cause="misprint", difference=0.0, verdict="undecided"),
             replace(third, cause="misprint", difference=0.0),
-        )
+        ),
+        PUBLICATION,
     )
     s = made.summary
     assert (s.rows, s.routes_agree, s.misprint, s.undecided) == (3, 2, 2, 1)
@@ -63,7 +65,8 @@ def test_every_cause_is_counted_as_itself() -> None:
     (one,) = verify(tables=[1], rows=["T1-01"]).outcomes
     times = {"agrees": 1, "truncation": 2, "listing-slip": 3, "misprint": 4, "unexplained": 5}
     s = Report(
-        tuple(replace(one, cause=cause) for cause, k in times.items() for _ in range(k))  # type: ignore[arg-type]
+        tuple(replace(one, cause=cause) for cause, k in times.items() for _ in range(k)),
+        PUBLICATION,
     ).summary
     found = (s.agrees, s.truncation, s.listing_slip, s.misprint, s.unexplained)
     assert found == (1, 2, 3, 4, 5)

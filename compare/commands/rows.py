@@ -3,18 +3,17 @@
 import argparse
 import io
 import sys
-from collections.abc import Callable
 from pathlib import Path
 
 from rich.console import Console
 
+from compare import publications
 from compare.commands.terminal import progress, terminal
 from compare.output import check_writable, write_whole
-from compare.report import render
-from compare.report.run import Report, select, verify
-from compare.report.tables import TABLES
+from compare.verification import METHODS, Report, verify
+from compare.verification_text import FORMATS, SHOWN, WRITERS, text
 
-SUMMARY = "check every printed row of the report's tables by two independent routes"
+SUMMARY = "check every printed row of a paper's tables by two independent routes"
 EPILOG = """\
 examples:
   verify                              every printed row of Tables 1, 2 and 3
@@ -22,8 +21,10 @@ examples:
   verify --row T1-07 --row T3-02      single rows; T3-02 is both of its columns
   verify --format md --output t1.md --table 1
   verify --method cvodes --workers 2  SUNDIALS as the witness, on two processes
+  verify --publication mathieu        another paper: Mathieu's characteristic values
 
-columns:
+columns (of the report; with --publication mathieu, P is P(1) or P(-1) at the printed value, and
+shown by says which routes show a sign change of it within half a unit of the last digit):
   T printed   the report's characteristic argument, twice the growth exponent; 0 is stable
   T as run    the report's program, truncation and slips included, at the Omega it was run at
   T Hill      the determinant with its tail summed;  T Floquet  the monodromy matrix
@@ -39,19 +40,29 @@ exit status: 0 the routes agree on every row and every difference from print has
 def configure(p: argparse.ArgumentParser) -> None:
     """Options of the command."""
     p.add_argument(
-        "--table", type=int, action="append", metavar="N", help="a table, 1 to 3; may be repeated"
+        "--publication",
+        default=publications.FIRST,
+        metavar="NAME",
+        help=f"whose tables: {', '.join(publications.names())} (default {publications.FIRST})",
+    )
+    p.add_argument(
+        "--table",
+        type=int,
+        action="append",
+        metavar="N",
+        help="a table; may be repeated",
     )
     p.add_argument("--row", action="append", metavar="ID", help="a row such as T1-07; repeatable")
     p.add_argument(
         "--show",
-        choices=render.SHOWN,
+        choices=SHOWN,
         default="all",
         help="which rows to list: that differ from print, whose printed verdict is wrong, or that "
         "fail (default all)",
     )
     p.add_argument(
         "--format",
-        choices=render.FORMATS,
+        choices=FORMATS,
         help="text, or what the output's suffix says (.json, .md, .csv)",
     )
     p.add_argument(
@@ -59,16 +70,15 @@ def configure(p: argparse.ArgumentParser) -> None:
     )
     p.add_argument(
         "--method",
-        choices=("taylor", "cvodes"),
+        choices=METHODS,
         default="taylor",
         help="how the time domain integrates (default taylor)",
     )
     p.add_argument(
         "--modes",
         type=int,
-        default=2,
         metavar="N",
-        help="bending modes of both routes (default 2, the report's)",
+        help="bending modes of both routes (default: the publication's, 2 for the report)",
     )
     p.add_argument(
         "--workers", type=int, default=1, metavar="N", help="processes, -1 for one a core"
@@ -83,13 +93,15 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _compute(options: argparse.Namespace) -> Report:
-    tables = tuple(sorted(set(options.table or TABLES)))
-    rows = select(tables, options.row)
+    paper = publications.find(options.publication)
+    tables = tuple(sorted(set(options.table or paper.tables)))
+    rows = paper.select(tables, options.row)
     if options.output is not None:
         check_writable(options.output)
     with progress("rows", len(rows)) as advance:
         return verify(
             tables,
+            publication=paper,
             rows=options.row,
             method=options.method,
             modes=options.modes,
@@ -102,20 +114,15 @@ def _write(report: Report, options: argparse.Namespace) -> None:
     kind = options.format
     if kind is None:
         suffix = options.output.suffix.lstrip(".") if options.output else "text"
-        kind = suffix if suffix in render.FORMATS else "text"
-    writers: dict[str, Callable[[Report, str], str]] = {
-        "json": render.as_json,
-        "md": render.markdown,
-        "csv": render.as_csv,
-    }
-    if kind in writers:
-        content = writers[kind](report, options.show)
+        kind = suffix if suffix in FORMATS else "text"
+    if kind in WRITERS:
+        content = WRITERS[kind](report, options.show)
     elif options.output is None:
-        render.text(report, options.show, console=terminal())
+        text(report, options.show, console=terminal())
         return
     else:
         buffer = io.StringIO()
-        render.text(report, options.show, console=Console(file=buffer, width=140))
+        text(report, options.show, console=Console(file=buffer, width=140))
         content = buffer.getvalue()
     if options.output is None:
         sys.stdout.write(content)

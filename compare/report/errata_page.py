@@ -12,9 +12,11 @@ import numpy as np
 from scipy.optimize import linear_sum_assignment
 
 from compare.output import check_writable, write_whole
-from compare.report.errata import Erratum, errata
+from compare.publication import Erratum
+from compare.publications.kincaid import check
+from compare.report.errata import errata
 from compare.report.match import distance
-from compare.report.row import Outcome, check
+from compare.report.row import Outcome
 from compare.report.tables import all_rows, corrected
 
 PAGE = Path("docs/errata.md")

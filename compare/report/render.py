@@ -1,40 +1,28 @@
-"""A report as text, JSON, Markdown or CSV: outcomes in, a string out, nothing computed."""
+"""How an outcome of the report looks: outcomes in, cells and records out, nothing computed."""
 
-import csv
-import io
-import json
 import math
 from collections.abc import Iterable
 from typing import Any
 
-from rich import box
-from rich.console import Console
-from rich.table import Table
-from rich.text import Text
-
+from compare.publication import Cell, Column, Rendering
 from compare.report.row import TERMS, Outcome
-from compare.report.run import Report
+from compare.report.summary import count
 from floquet import Monodromy
 from hill import Characteristic
 
-SHOWN = ("all", "differs", "flips", "fail")
-FORMATS = ("text", "json", "md", "csv")
-
 COLUMNS = (
-    "row",
-    "Omega",
-    "run at",
-    "T printed",
-    "as run",
-    "Hill",
-    "Floquet",
-    "|dP|",
-    "bound",
-    "cause",
-    "verdict",
+    Column("row", words=True),
+    Column("Omega"),
+    Column("run at", width=112),
+    Column("T printed"),
+    Column("as run"),
+    Column("Hill"),
+    Column("Floquet"),
+    Column("|dP|", width=96),
+    Column("bound", width=112),
+    Column("cause", words=True),
+    Column("verdict", words=True),
 )
-# What a terminal narrower than so many columns does without.
-LEFT_OUT = {112: ("bound", "run at"), 96: ("|dP|",)}
 STYLES = {
     "agrees": "green",
     "truncation": "yellow",
@@ -42,93 +30,28 @@ STYLES = {
     "misprint": "cyan",
     "unexplained": "red",
 }
+LOUD = "bold reverse red"
 
 
-def shown(report: Report, which: str) -> tuple[Outcome, ...]:
-    """Outcomes to show: all, or those that differ from print, whose verdict flips, that fail."""
-    if which == "differs":
-        return tuple(o for o in report.outcomes if o.cause != "agrees" or o.flips)
-    if which == "flips":
-        return tuple(o for o in report.outcomes if o.flips)
-    if which == "fail":
-        return tuple(o for o in report.outcomes if not (o.routes_agree and o.expected))
-    return report.outcomes
-
-
-def summary(report: Report) -> tuple[str, str]:
-    """Two lines that say what was found."""
-    s = report.summary
-    counts = (
-        (s.agrees, "agrees with print", "agree with print"),
-        (s.truncation, "is a truncation artefact", "are truncation artefacts"),
-        (s.listing_slip, "follows a slip of the program", "follow slips of the program"),
-        (s.misprint, "is a misprint", "are misprints"),
-        (s.unexplained, "has no explanation", "have no explanation"),
-    )
-    found = [f"{n} {one if n == 1 else many}" for n, one, many in counts if n]
-    verdicts = "verdict on stability is" if s.flips == 1 else "verdicts on stability are"
-    wrong = f"{s.flips} printed {verdicts} wrong" if s.flips else "no printed verdict is wrong"
-    if s.undecided:
-        wrong += f", {s.undecided} {'is' if s.undecided == 1 else 'are'} undecided"
-    return (
-        f"{s.rows} printed value{'s' * (s.rows != 1)}: {', '.join(found)}; {wrong}.",
-        f"The two routes agree on {s.routes_agree} of {s.rows} within their own error bounds; "
-        f"P(z) differs by {s.largest_difference:.1e} of its largest coefficient at most, "
-        f"{s.largest_share:.0%} of the bounds.",
-    )
-
-
-def text(report: Report, which: str = "all", *, console: Console) -> None:
-    """Print the table and the two lines to a console; colour is the console's business."""
-    left_out = {
-        name for width, names in LEFT_OUT.items() if console.width < width for name in names
-    }
-    table = Table(
-        box=box.SIMPLE_HEAD,
-        pad_edge=False,
-        show_edge=False,
-        header_style="bold",
-        padding=(0, 1, 0, 0),
-    )
-    for name in COLUMNS:
-        if name not in left_out:
-            plain = name in ("row", "cause", "verdict")
-            table.add_column(name, justify="left" if plain else "right", no_wrap=True)
-    for outcome in shown(report, which):
-        cells: dict[str, Any] = dict(zip(COLUMNS, cell_texts(outcome), strict=True))
-        if "bound" in left_out:
-            cells["cause"] = cells["cause"].split(" ")[0]
-        cells["cause"] = Text(cells["cause"], style=STYLES[outcome.cause])
-        if outcome.flips:
-            cells["verdict"] = Text(cells["verdict"], style="bold reverse red")
-        if not outcome.routes_agree:
-            cells["|dP|"] = Text(cells["|dP|"], style="bold reverse red")
-        table.add_row(*(cell for name, cell in cells.items() if name not in left_out))
-    if table.row_count:
-        console.print(table)
-        console.print()
-    for line in summary(report):
-        console.print(line, style="bold" if report.ok else "bold red", soft_wrap=True)
-
-
-def cell_texts(outcome: Outcome) -> tuple[str, ...]:
+def cells(outcome: Outcome) -> tuple[Cell, ...]:
     """The cells of `COLUMNS`."""
     row = outcome.row
     cause = outcome.cause + ("" if outcome.expected else "!")
-    if outcome.note.startswith("as corrected: "):
-        cause += f" ({outcome.note.removeprefix('as corrected: ')})"
+    reason = outcome.note.removeprefix("as corrected: ")
+    corrected = f" ({reason})" if reason != outcome.note else ""
+    verdict = f"-> {outcome.verdict.upper()}" if outcome.flips else outcome.verdict
     return (
-        row.id,
-        row.Omega_printed,
-        f"{row.Omega:.6f}",
-        _short(row.T_printed),
-        decimal(outcome.as_run_T),
-        decimal(outcome.hill.T, outcome.hill.T_error),
-        decimal(outcome.floquet.T, outcome.floquet.T_error),
-        f"{outcome.difference:.0e}",
-        f"{outcome.hill.error + outcome.floquet.error:.0e}",
-        cause,
-        f"-> {outcome.verdict.upper()}" if outcome.flips else outcome.verdict,
+        Cell(row.id),
+        Cell(row.Omega_printed),
+        Cell(f"{row.Omega:.6f}"),
+        Cell(_short(row.T_printed)),
+        Cell(decimal(outcome.as_run_T)),
+        Cell(decimal(outcome.hill.T, outcome.hill.T_error)),
+        Cell(decimal(outcome.floquet.T, outcome.floquet.T_error)),
+        Cell(f"{outcome.difference:.0e}", "" if outcome.routes_agree else LOUD),
+        Cell(f"{outcome.hill.error + outcome.floquet.error:.0e}"),
+        Cell(cause + corrected, STYLES[outcome.cause], short=cause),
+        Cell(verdict, LOUD if outcome.flips else "", loud=outcome.flips),
     )
 
 
@@ -141,19 +64,10 @@ def _short(number: str) -> str:
     return number.replace("0.", ".", 1) if number.startswith(("0.", "-0.")) else number
 
 
-def as_json(report: Report, which: str = "all") -> str:
-    """The report as JSON; complex numbers are [re, im]."""
-    content = {
-        "summary": vars(report.summary) | {"ok": report.ok},
-        "rows": [as_dict(outcome) for outcome in shown(report, which)],
-    }
-    return json.dumps(content, indent=1, allow_nan=False) + "\n"
-
-
-def as_dict(outcome: Outcome) -> dict[str, Any]:
-    """One outcome with the names of the JSON."""
+def record(outcome: Outcome) -> dict[str, Any]:
+    """One outcome with the names of the JSON; complex numbers are [re, im]."""
     row = outcome.row
-    record: dict[str, Any] = {
+    found: dict[str, Any] = {
         "id": row.id,
         "table": row.table,
         "page": row.page,
@@ -177,10 +91,10 @@ def as_dict(outcome: Outcome) -> dict[str, Any]:
         "note": outcome.note,
     }
     if row.initial_conditions is not None:
-        record["initial_conditions"] = row.initial_conditions
+        found["initial_conditions"] = row.initial_conditions
         # as many as the report keeps: a truncation like any other, see the errata
-        record["terms"] = TERMS if row.initial_conditions else 0
-    return record
+        found["terms"] = TERMS if row.initial_conditions else 0
+    return found
 
 
 def _route(route: Characteristic | Monodromy) -> dict[str, Any]:
@@ -204,31 +118,21 @@ def _pairs(z: Iterable[complex]) -> list[list[float]]:
     return [[float(value.real), float(value.imag)] for value in z]
 
 
-def markdown(report: Report, which: str = "all") -> str:
-    """A table for a report, and the two lines."""
-    lines = ["| " + " | ".join(name.replace("|", "\\|") for name in COLUMNS) + " |"]
-    lines.append("|" + "|".join(" --- " if k in (0, 9, 10) else " ---: " for k in range(11)) + "|")
-    for outcome in shown(report, which):
-        cells = list(cell_texts(outcome))
-        if outcome.flips:
-            cells[-1] = f"**{cells[-1]}**"
-        lines.append("| " + " | ".join(cells) + " |")
-    return "\n".join([*lines, "", *summary(report)]) + "\n"
+CSV_HEADER = (
+    *("id", "table", "Omega_printed", "Omega", "Omega_from", "T_printed", "T_as_run"),
+    *(f"{route}_{what}" for route in ("hill", "floquet") for what in ("T", "error")),
+    *("difference", "routes_agree", "cause", "verdict_printed", "verdict", "note"),
+)
 
 
-def as_csv(report: Report, which: str = "all") -> str:
-    """One line a row, every digit."""
-    buffer = io.StringIO()
-    writer = csv.writer(buffer, lineterminator="\n")
-    names = ["id", "table", "Omega_printed", "Omega", "Omega_from", "T_printed", "T_as_run"]
-    names += [f"{route}_{what}" for route in ("hill", "floquet") for what in ("T", "error")]
-    names += ["difference", "routes_agree", "cause", "verdict_printed", "verdict", "note"]
-    writer.writerow(names)
-    for o in shown(report, which):
-        writer.writerow(
-            [o.row.id, o.row.table, o.row.Omega_printed, repr(o.row.Omega), o.row.Omega_from]
-            + [o.row.T_printed, repr(float(o.as_run_T))]
-            + [repr(float(x)) for route in (o.hill, o.floquet) for x in (route.T, route.error)]
-            + [repr(o.difference), o.routes_agree, o.cause, o.verdict_printed, o.verdict, o.note]
-        )
-    return buffer.getvalue()
+def csv_line(o: Outcome) -> list[Any]:
+    """The values under `CSV_HEADER`."""
+    return [
+        *(o.row.id, o.row.table, o.row.Omega_printed, o.row.Omega, o.row.Omega_from),
+        *(o.row.T_printed, o.as_run_T),
+        *(x for route in (o.hill, o.floquet) for x in (route.T, route.error)),
+        *(o.difference, o.routes_agree, o.cause, o.verdict_printed, o.verdict, o.note),
+    ]
+
+
+RENDERING = Rendering(COLUMNS, cells, record, CSV_HEADER, csv_line, count)

@@ -6,11 +6,11 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from compare.both_routes import compare_routes
-from compare.report.errata import is_open
+from compare.both_routes import CrossCheck, compare_routes
+from compare.publication import Erratum, Method
 from compare.report.match import distance
 from compare.report.program.deck import constants
-from compare.report.program.listing import stab
+from compare.report.program.listing import Stab, stab
 from compare.report.recover import HALF_UNIT, T_AS_RUN, Z_AS_RUN
 from compare.report.tables import Row, corrected
 from floquet import Monodromy
@@ -21,7 +21,6 @@ from hill.stability import Verdict
 
 Complex = NDArray[np.complexfloating[Any, Any]]
 Cause = Literal["agrees", "truncation", "listing-slip", "misprint", "unexplained"]
-Method = Literal["taylor", "cvodes"]
 Found = tuple[float, Complex]
 """T and z."""
 
@@ -83,40 +82,47 @@ class Outcome:
     note: str
 
     @property
+    def differs(self) -> bool:
+        """Whether print differs, or says another verdict."""
+        return self.cause != "agrees" or self.flips
+
+    @property
     def flips(self) -> bool:
         """Whether the printed verdict on stability is shown to be wrong."""
         return self.verdict not in ("undecided", self.verdict_printed)
 
 
-def check(row: Row, *, method: Method = "taylor", modes: int = 2) -> Outcome:
-    """Compute one row by every route, and judge it.
+def as_run(row: Row) -> Stab:
+    """What the report's program gives at the Omega it was run at."""
+    return stab(constants(row.run["beam"]), row.case, row.Omega)
 
-    Parameters
-    ----------
-    row : Row
-    method : {"taylor", "cvodes"}, optional
-        CasADi method of the time domain.
-    modes : int, optional
-        Bending modes of both routes. The cause is always judged with the report's two.
-    """
-    as_run = stab(constants(row.run["beam"]), row.case, row.Omega)
-    closed, quadrature = equation(row, modes), witness(row, modes)
-    x = compare_routes(closed, quadrature, method=method)
-    of_two_modes = closed if modes == 2 else equation(row, 2)
+
+def solve(row: Row, *, method: Method, modes: int) -> CrossCheck:
+    """Both routes, each with its own matrices."""
+    return compare_routes(equation(row, modes), witness(row, modes), method=method)
+
+
+def explain(row: Row, x: CrossCheck, program: Stab, errata: tuple[Erratum, ...]) -> Outcome:
+    """Why print differs, if it does. The cause is always judged with the report's two modes."""
+    modes, listed_open = len(x.hill.z) - 1, any(e.kind == "open" for e in errata)
+    of_two_modes = equation(row, 2)
     judged = x.hill if modes == 2 else characteristic(of_two_modes)
-    cause, note = _cause(row, of_two_modes, (judged.T, judged.z), (as_run.STAB1, as_run.roots))
+    found, run = (judged.T, judged.z), (program.STAB1, program.roots)
+    cause, note = _cause(row, of_two_modes, found, run)
+    if cause == "unexplained" and listed_open:
+        note = "open, see the errata"
     return Outcome(
         row=row,
         modes=modes,
-        as_run_T=as_run.STAB1,
-        as_run_z=as_run.roots,
+        as_run_T=program.STAB1,
+        as_run_z=program.roots,
         hill=x.hill,
         floquet=x.floquet,
         difference=x.difference,
         matrices=x.matrices,
         routes_agree=x.routes_agree,
         cause=cause,
-        expected=cause != "unexplained" or is_open(row.id),
+        expected=cause != "unexplained" or listed_open,
         verdict_printed="stable" if row.T == 0.0 else "unstable",
         verdict=x.verdict,
         note=note if modes == 2 else f"{modes} modes; {note}".removesuffix("; "),
@@ -154,7 +160,7 @@ def _cause(row: Row, eq: HillEquation, converged: Found, as_run: Found) -> tuple
     for cause, found, tolerances in explanations:
         if corrected_row != row and _reproduces(corrected_row, found, tolerances):
             return "misprint", f"as corrected: {cause}"
-    return "unexplained", "open, see the errata" if is_open(row.id) else ""
+    return "unexplained", ""
 
 
 def _truncated(eq: HillEquation) -> Found:

@@ -169,6 +169,11 @@ def all_rows(tables: tuple[int, ...] = TABLES) -> tuple[Row, ...]:
     return tuple(row for table in tables for row in rows(table))
 
 
+def is_named(row: Row, name: str) -> bool:
+    """Whether a name means the row; "T3-02" means both columns of that line."""
+    return name.upper() in (row.id.upper(), row.id.upper().rstrip("AB"))
+
+
 def corrected(row: Row) -> Row:
     """The row with the cells that the errata correct."""
     cells = corrected_cells(row.id)

@@ -1,0 +1,27 @@
+"""Kincaid, Pearson, Hill and Wang: Tables 1 to 3 of the report that this project reproduces.
+
+Its own matters, the program of its appendix, its figures and its conclusions, are in
+`compare.report`.
+"""
+
+from compare.publication import Publication
+from compare.report import render, row, tables
+from compare.report.errata import errata
+
+PUBLICATION = Publication(
+    name="kincaid",
+    title="Kincaid, Pearson, Hill and Wang: dynamic stability of a free-free beam under a "
+    "gimbaled, pulsating thrust",
+    tables=tables.TABLES,
+    rows=tables.rows,
+    errata=errata,
+    as_run=row.as_run,
+    solve=row.solve,
+    explain=row.explain,
+    rendering=render.RENDERING,
+    modes=2,
+    is_named=tables.is_named,
+)
+
+check = PUBLICATION.check
+"""One row of the report, by both routes and explained."""

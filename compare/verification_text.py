@@ -1,0 +1,96 @@
+"""A report as text, JSON, Markdown or CSV: outcomes in, a string out, nothing computed."""
+
+import csv
+import io
+import json
+from collections.abc import Callable
+from typing import Any
+
+from rich import box
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+
+from compare.verification import Report
+
+SHOWN = ("all", "differs", "flips", "fail")
+FORMATS = ("text", "json", "md", "csv")
+
+
+def shown(report: Report, which: str) -> tuple[Any, ...]:
+    """Outcomes to show: all, or those that differ from print, whose verdict flips, that fail."""
+    if which == "differs":
+        return tuple(o for o in report.outcomes if o.differs)
+    if which == "flips":
+        return tuple(o for o in report.outcomes if o.flips)
+    if which == "fail":
+        return tuple(o for o in report.outcomes if not (o.routes_agree and o.expected))
+    return report.outcomes
+
+
+def text(report: Report, which: str = "all", *, console: Console) -> None:
+    """Print the table and what was found; colour is the console's business."""
+    rendering = report.publication.rendering
+    kept = [console.width >= column.width for column in rendering.columns]
+    table = Table(
+        box=box.SIMPLE_HEAD,
+        pad_edge=False,
+        show_edge=False,
+        header_style="bold",
+        padding=(0, 1, 0, 0),
+    )
+    for column, keep in zip(rendering.columns, kept, strict=True):
+        if keep:
+            table.add_column(column.name, justify="left" if column.words else "right", no_wrap=True)
+    for outcome in shown(report, which):
+        cells = []
+        for cell, keep in zip(rendering.cells(outcome), kept, strict=True):
+            words = cell.text if all(kept) else cell.short or cell.text
+            if keep:
+                cells.append(Text(words, style=cell.style) if cell.style else words)
+        table.add_row(*cells)
+    if table.row_count:
+        console.print(table)
+        console.print()
+    for line in report.summary.lines:
+        console.print(line, style="bold" if report.ok else "bold red", soft_wrap=True)
+
+
+def as_json(report: Report, which: str = "all") -> str:
+    """The report as JSON."""
+    content = {
+        "summary": vars(report.summary) | {"ok": report.ok},
+        "rows": [report.publication.rendering.record(o) for o in shown(report, which)],
+    }
+    return json.dumps(content, indent=1, allow_nan=False) + "\n"
+
+
+def markdown(report: Report, which: str = "all") -> str:
+    """A table, and what was found."""
+    rendering = report.publication.rendering
+    names = [column.name.replace("|", "\\|") for column in rendering.columns]
+    lines = ["| " + " | ".join(names) + " |"]
+    lines.append("|" + "|".join(" --- " if c.words else " ---: " for c in rendering.columns) + "|")
+    for outcome in shown(report, which):
+        cells = [f"**{c.text}**" if c.loud else c.text for c in rendering.cells(outcome)]
+        lines.append("| " + " | ".join(cells) + " |")
+    return "\n".join([*lines, "", *report.summary.lines]) + "\n"
+
+
+def as_csv(report: Report, which: str = "all") -> str:
+    """One line a row, every digit."""
+    rendering = report.publication.rendering
+    buffer = io.StringIO()
+    writer = csv.writer(buffer, lineterminator="\n")
+    writer.writerow(rendering.csv_header)
+    for outcome in shown(report, which):
+        values = rendering.csv_line(outcome)
+        writer.writerow([repr(float(v)) if isinstance(v, float) else v for v in values])
+    return buffer.getvalue()
+
+
+WRITERS: dict[str, Callable[[Report, str], str]] = {
+    "json": as_json,
+    "md": markdown,
+    "csv": as_csv,
+}
