@@ -26,6 +26,7 @@ uniform = import_module("hill.matrices.uniform")
 stepped = import_module("hill.matrices.stepped")
 determinant = import_module("hill.determinant.finite")
 solver = import_module("hill.determinant.converged")
+result = import_module("hill.determinant.result")
 residues = import_module("hill.determinant.residues")
 modes = import_module("hill.matrices.modes")
 listing = import_module("compare.report.program.listing")
@@ -408,9 +409,9 @@ def test_damping_term(route: str, share: float, monkeypatch: Patch) -> None:
     """eta q' of (4.5.18), which the report prints without eta, and T = ... - eta."""
     assert solutions_meet(*damped(UNIFORM))
     if route == "hill":
-        right_T = solver.stability_of
+        right_T = result.stability_of
         monkeypatch.setattr(
-            solver,
+            result,
             "stability_of",
             lambda P, error, Omega, eta: right_T(P, error, Omega, share * eta),
         )
