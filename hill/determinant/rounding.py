@@ -65,8 +65,9 @@ def coefficient_shifts(
     down = _eliminated(diagonal, lower, upper)
     up = _eliminated(diagonal[:, ::-1], upper, lower)[:, ::-1]
     inverse = np.linalg.inv(np.linalg.inv(down) + np.linalg.inv(up) - diagonal)
-    below = -up[:, 1:] @ lower @ inverse[:, :-1]
-    above = -inverse[:, :-1] @ upper @ up[:, 1:]
+    # but for their sign, of which no modulus knows
+    below = up[:, 1:] @ lower @ inverse[:, :-1]
+    above = inverse[:, :-1] @ upper @ up[:, 1:]
 
     def common(error: Blocks) -> Float:
         of_inner, of_upper, of_lower = _constant(error, reach)
