@@ -8,6 +8,9 @@ from pathlib import Path
 from typing import Any, Literal, TypeVar
 
 from hill import checks
+from hill.arrays import Complex, Float
+from hill.equation import HillEquation
+from hill.periodic import PeriodicEquation
 from hill.system import Parameter
 from hill.toml import one_of
 from hill.vehicle.parts import LARGEST_G, Damping, PointMass, Section, Sensor, Thrust
@@ -200,6 +203,67 @@ class Vehicle:
     def varied(self, **values: float) -> "Vehicle":
         """The same with other values of some parameters."""
         return varied(self, values)
+
+    def equation(
+        self, Omega: float, gamma: float, eta: float = 0.0
+    ) -> HillEquation | PeriodicEquation:
+        """The equation under a pulsating thrust, ``mean (1 + gamma cos Omega t)``.
+
+        Its coordinates are the mass-normalised exact modes of the vehicle without thrust, the
+        deflection at the aft end positive (the rotation at a pinned one, the moment at a clamped
+        one), and the rigid rotation after them. Everything is in the vehicle's unit of time.
+
+        Parameters
+        ----------
+        Omega : float
+            Radians per unit of time, > 0.
+        gamma : float
+        eta : float, optional
+            Damping in addition to the vehicle's own, 1/time.
+
+        Returns
+        -------
+        HillEquation
+            Where the damping is one number and nothing turns the gimbal by a rate.
+        PeriodicEquation
+            Otherwise: of second order with modal damping, rates, or the sine part of a damped
+            axial force; of first order, (q, q'/w, theta/c) with fixed w and c, with a servo.
+            ``data_error`` is what the modes and the integrals are known to.
+
+        Raises
+        ------
+        ValueError
+            A parameter out of range; an undamped longitudinal resonance.
+        """
+        from hill.vehicle.equations import equation
+
+        return equation(self, Omega, gamma, eta)
+
+    def natural_frequencies(self) -> Float | Complex:
+        """Under the mean thrust without damping, radians per unit of time.
+
+        Returns
+        -------
+        (coordinates,) ndarray
+            Ascending by real part; complex where the vehicle is unstable. The gimbal follows at
+            once and rates are left out.
+        """
+        from hill.vehicle.equations import natural_frequencies
+
+        return natural_frequencies(self)
+
+    def frequencies(self, *, under_thrust: bool = False) -> Float | Complex:
+        """Cycles per unit of time, Hz where that is the second.
+
+        Parameters
+        ----------
+        under_thrust : bool, optional
+            As `natural_frequencies`; else of the elastic modes without thrust, (modes,).
+        """
+        from hill.vehicle.equations import unloaded_frequencies
+
+        found = self.natural_frequencies() if under_thrust else unloaded_frequencies(self)
+        return found / (2.0 * math.pi)
 
     # ---- checks ---------------------------------------------------------------------------------
 
