@@ -1,11 +1,10 @@
 """A vehicle: sections, masses, thrust, control and damping; data that both routes share."""
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import accumulate
 from pathlib import Path
-from typing import Any, Literal, TypeVar
+from typing import Literal
 
 from hill import checks
 from hill.arrays import Complex, Float
@@ -15,24 +14,16 @@ from hill.system import Parameter
 from hill.toml import one_of
 from hill.vehicle.parts import LARGEST_G, Damping, PointMass, Section, Sensor, Thrust
 from hill.vehicle.units import Units, checked
+from hill.vehicle.validate import End, ends, items, on_board, on_vehicle
 from hill.vehicle.vary import varied, varying
 
-End = Literal["free", "pinned", "clamped"]
-ENDS = ("free", "pinned", "clamped")
 AxialDamping = Literal["report", "hysteretic"]
 AXIAL_DAMPING = ("report", "hysteretic")
 
 MOST_MODES = 60
 """An equation of more coordinates takes either route minutes."""
 
-MOST_SECTIONS = 5000
-
-# Stations are sums of lengths: the aft end as typed may miss the sum by its rounding.
-STATION = 1e-12
-
 UNLOADED, UNDAMPED, SI = Thrust(), Damping(), Units()
-
-Part = TypeVar("Part", PointMass, Sensor)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -96,8 +87,8 @@ class Vehicle:
     def __post_init__(self) -> None:
         checks.store(
             self,
-            sections=_items("sections", self.sections, Section, most=MOST_SECTIONS),
-            ends=_ends(self.ends),
+            sections=items("sections", self.sections, Section),
+            ends=ends(self.ends),
             servo_time=checks.between("servo_time", self.servo_time, 0.0, math.inf),
             g=checks.between("g", self.g, 0.0, LARGEST_G),
             units=checked(self.units),
@@ -118,11 +109,11 @@ class Vehicle:
         station = self.thrust.station
         checks.store(
             self,
-            masses=self._on_board("masses", _items("masses", self.masses, PointMass)),
-            sensors=self._on_board("sensors", _items("sensors", self.sensors, Sensor)),
+            masses=on_board(self.length, "masses", items("masses", self.masses, PointMass)),
+            sensors=on_board(self.length, "sensors", items("sensors", self.sensors, Sensor)),
             thrust=self.thrust
             if station is None
-            else replace(self.thrust, station=self._station("thrust.station", station)),
+            else replace(self.thrust, station=on_vehicle("thrust.station", station, self.length)),
         )
         matrix = self.damping.matrix
         if matrix is not None and len(matrix) != self.coordinates:
@@ -264,45 +255,3 @@ class Vehicle:
 
         found = self.natural_frequencies() if under_thrust else unloaded_frequencies(self)
         return found / (2.0 * math.pi)
-
-    # ---- checks ---------------------------------------------------------------------------------
-
-    def _on_board(self, name: str, parts: tuple[Part, ...]) -> tuple[Part, ...]:
-        return tuple(
-            replace(part, station=self._station(f"{name}[{k}].station", part.station))
-            for k, part in enumerate(parts, start=1)
-        )
-
-    def _station(self, name: str, value: float) -> float:
-        """A station on the vehicle; a rounding error beyond an end is put back."""
-        length = self.length
-        if abs(value - length) <= STATION * length:
-            return length
-        if not 0.0 <= value <= length:
-            raise ValueError(
-                f"{name} = {value:g}: is outside the vehicle, must be between 0 and {length:g}"
-            )
-        return value
-
-
-def _ends(value: Any) -> tuple[End, End]:
-    if isinstance(value, str) or not isinstance(value, Sequence) or len(value) != 2:
-        raise ValueError(f"ends = {value!r}: must be two words, of the nose and of the aft end")
-    for name in value:
-        if name not in ENDS:
-            raise ValueError(f"ends = {name!r}: {one_of(str(name), ENDS)}")
-    return value[0], value[1]
-
-
-def _items(name: str, value: Any, kind: type, most: int = MOST_SECTIONS) -> tuple[Any, ...]:
-    """A tuple of parts of one kind."""
-    try:
-        found = tuple(value)
-    except TypeError:
-        raise ValueError(f"{name}: must be a sequence of {kind.__name__}") from None
-    for k, item in enumerate(found, start=1):
-        if not isinstance(item, kind):
-            raise ValueError(f"{name}[{k}] = {item!r}: must be a {kind.__name__}")
-    if len(found) > most:
-        raise ValueError(f"{name}: are {len(found):,}, must be at most {most:,}")
-    return found
