@@ -168,6 +168,28 @@ class Rendering(Generic[O]):
 
 
 @dataclass(frozen=True)
+class MoreTerms(Generic[R]):
+    """For a paper whose printed values sum a series: what more of its terms would give.
+
+    Attributes
+    ----------
+    applies : callable
+        Whether a row sums any.
+    compute : callable
+        Such a row to what is found, which says whether the ``routes_agree``.
+    record : callable
+        That to what JSON holds of it; the names are CSV's too, behind ``more_terms_``.
+    line : callable
+        The row and what is found, in words.
+    """
+
+    applies: Callable[[R], bool]
+    compute: Callable[[R], Any]
+    record: Callable[[Any], dict[str, Any]]
+    line: Callable[[R, Any], str]
+
+
+@dataclass(frozen=True)
 class Publication(Generic[R, S, O]):
     """A paper with printed tables.
 
@@ -196,6 +218,8 @@ class Publication(Generic[R, S, O]):
         `explain` gets None.
     modes : int, optional
         How many modes the tables were made with; None where there is nothing to choose.
+    more_terms : MoreTerms, optional
+        Where printed values sum a series, its limit.
     is_named : callable, optional
         Whether a row is meant by a name; by default its id is, in any case.
     """
@@ -210,6 +234,7 @@ class Publication(Generic[R, S, O]):
     rendering: Rendering[O]
     as_run: Callable[[R], Any] | None = None
     modes: int | None = None
+    more_terms: MoreTerms[R] | None = None
     is_named: Callable[[R, str], bool] | None = None
 
     def check(self, row: R, *, method: Method = "taylor", modes: int | None = None) -> O:

@@ -1,7 +1,7 @@
 """Printed rows held against both routes: in order, with progress, on one process or several."""
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
 
@@ -20,11 +20,14 @@ class Report:
 
     outcomes: tuple[Any, ...]
     publication: Publication[Any, Any, Any]
+    more_terms: dict[str, Any] = field(default_factory=dict)
+    """By row id, what more terms of the series that it sums give; only where asked for."""
 
     @property
     def ok(self) -> bool:
         """Whether the routes agree on every row and no printed value lost its explanation."""
-        return all(o.routes_agree and o.expected for o in self.outcomes)
+        more = all(found.routes_agree for found in self.more_terms.values())
+        return more and all(o.routes_agree and o.expected for o in self.outcomes)
 
     @property
     def summary(self) -> Counts | Any:
@@ -39,6 +42,7 @@ def verify(
     rows: Iterable[str] | None = None,
     method: Method = "taylor",
     modes: int | None = None,
+    more_terms: bool = False,
     workers: int | MapLike = 1,
     progress: Callable[[Any], Any] | None = None,
 ) -> Report:
@@ -56,6 +60,8 @@ def verify(
         How the time domain integrates.
     modes : int, optional
         Bending modes; the report has 2.
+    more_terms : bool, optional
+        Sum more terms where a printed value sums a series, and estimate the limit.
     workers : int or map-like callable, optional
         Processes, or a function that maps like `map` and keeps the order.
     progress : callable, optional
@@ -68,7 +74,8 @@ def verify(
     Raises
     ------
     ValueError
-        A publication, table, row, method or number that does not exist.
+        A publication, table, row, method or number that does not exist; `more_terms` where no row
+        sums any.
     """
     paper = publications.find(publication) if isinstance(publication, str) else publication
     chosen = paper.select(
@@ -76,14 +83,44 @@ def verify(
     )
     if method not in METHODS:
         raise ValueError(f"method = {method!r}: must be {' or '.join(METHODS)}")
-    job = partial(paper.check, method=method, modes=_modes(paper, modes))
-    outcomes = []
+    if more_terms:
+        check_more_terms(paper, chosen)
+    job = partial(_check, paper, method, _modes(paper, modes), more_terms)
+    outcomes, more = [], {}
     with mapper(workers, chunk=4) as run:
-        for outcome in run(job, chosen):
+        for outcome, found in run(job, chosen):
             outcomes.append(outcome)
+            if found is not None:
+                more[outcome.row.id] = found
             if progress is not None:
                 progress(outcome)
-    return Report(tuple(outcomes), paper)
+    return Report(tuple(outcomes), paper, more)
+
+
+def check_more_terms(paper: Publication[Any, Any, Any], rows: Iterable[Any]) -> None:
+    """Refuse to sum more terms where there are none.
+
+    Raises
+    ------
+    ValueError
+        None of the rows sums any.
+    """
+    if paper.more_terms is None or not any(map(paper.more_terms.applies, rows)):
+        raise ValueError("more-terms: must be left out, none of these rows sums a series")
+
+
+def _check(
+    paper: Publication[Any, Any, Any],
+    method: Method,
+    modes: int | None,
+    more_terms: bool,
+    row: Any,
+) -> tuple[Any, Any]:
+    """A row, and what more terms give if it sums any and they are asked for."""
+    outcome, more = paper.check(row, method=method, modes=modes), None
+    if more_terms and paper.more_terms is not None and paper.more_terms.applies(row):
+        more = paper.more_terms.compute(row)
+    return outcome, more
 
 
 def _modes(paper: Publication[Any, Any, Any], modes: int | None) -> int | None:

@@ -52,6 +52,11 @@ def text(report: Report, which: str = "all", *, console: Console) -> None:
     if table.row_count:
         console.print(table)
         console.print()
+    more = _more_lines(report, which)
+    for line in more:
+        console.print(line, highlight=False, soft_wrap=True)
+    if more:
+        console.print()
     for line in report.summary.lines:
         console.print(line, style="bold" if report.ok else "bold red", soft_wrap=True)
 
@@ -60,9 +65,27 @@ def as_json(report: Report, which: str = "all") -> str:
     """The report as JSON."""
     content = {
         "summary": vars(report.summary) | {"ok": report.ok},
-        "rows": [report.publication.rendering.record(o) for o in shown(report, which)],
+        "rows": [_record(report, o) for o in shown(report, which)],
     }
     return json.dumps(content, indent=1, allow_nan=False) + "\n"
+
+
+def _record(report: Report, outcome: Any) -> dict[str, Any]:
+    found, more = report.publication.rendering.record(outcome), _more(report, outcome)
+    return found | {"more_terms": more} if more else found
+
+
+def _more(report: Report, outcome: Any) -> dict[str, Any]:
+    """What JSON holds of more terms; nothing where there is none."""
+    paper, found = report.publication, report.more_terms.get(outcome.row.id)
+    return paper.more_terms.record(found) if paper.more_terms and found is not None else {}
+
+
+def _more_lines(report: Report, which: str) -> list[str]:
+    """The same in words, a line a row."""
+    more, found = report.publication.more_terms, report.more_terms
+    rows = [o.row for o in shown(report, which) if o.row.id in found]
+    return [more.line(row, found[row.id]) for row in rows] if more else []
 
 
 def markdown(report: Report, which: str = "all") -> str:
@@ -74,7 +97,8 @@ def markdown(report: Report, which: str = "all") -> str:
     for outcome in shown(report, which):
         cells = [f"**{c.text}**" if c.loud else c.text for c in rendering.cells(outcome)]
         lines.append("| " + " | ".join(cells) + " |")
-    return "\n".join([*lines, "", *report.summary.lines]) + "\n"
+    more = [f"- {line}" for line in _more_lines(report, which)]
+    return "\n".join([*lines, *([""] if more else []), *more, "", *report.summary.lines]) + "\n"
 
 
 def as_csv(report: Report, which: str = "all") -> str:
@@ -82,9 +106,11 @@ def as_csv(report: Report, which: str = "all") -> str:
     rendering = report.publication.rendering
     buffer = io.StringIO()
     writer = csv.writer(buffer, lineterminator="\n")
-    writer.writerow(rendering.csv_header)
-    for outcome in shown(report, which):
-        values = rendering.csv_line(outcome)
+    extra = [_more(report, outcome) for outcome in shown(report, which)]
+    names = list(dict.fromkeys(name for more in extra for name in more))
+    writer.writerow([*rendering.csv_header, *(f"more_terms_{name}" for name in names)])
+    for outcome, more in zip(shown(report, which), extra, strict=True):
+        values = [*rendering.csv_line(outcome), *(more.get(name, "") for name in names)]
         writer.writerow([repr(float(v)) if isinstance(v, float) else v for v in values])
     return buffer.getvalue()
 

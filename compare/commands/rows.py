@@ -10,7 +10,7 @@ from rich.console import Console
 from compare import publications
 from compare.commands.terminal import progress, terminal
 from compare.output import check_writable, write_whole
-from compare.verification import METHODS, Report, verify
+from compare.verification import METHODS, Report, check_more_terms, verify
 from compare.verification_text import FORMATS, SHOWN, WRITERS, text
 
 SUMMARY = "check every printed row of a paper's tables by two independent routes"
@@ -21,6 +21,7 @@ examples:
   verify --row T1-07 --row T3-02      single rows; T3-02 is both of its columns
   verify --format md --output t1.md --table 1
   verify --method cvodes --workers 2  SUNDIALS as the witness, on two processes
+  verify --table 3 --more-terms       beside the five terms that are printed, eight and the limit
   verify --publication mathieu        another paper: Mathieu's characteristic values
 
 columns (of the report; with --publication mathieu, P is P(1) or P(-1) at the printed value, and
@@ -81,6 +82,12 @@ def configure(p: argparse.ArgumentParser) -> None:
         help="bending modes of both routes (default: the publication's, 2 for the report)",
     )
     p.add_argument(
+        "--more-terms",
+        action="store_true",
+        help="where a printed value sums a series (Table 3, with initial conditions), sum more of "
+        "it and estimate the limit too",
+    )
+    p.add_argument(
         "--workers", type=int, default=1, metavar="N", help="processes, -1 for one a core"
     )
 
@@ -96,6 +103,8 @@ def _compute(options: argparse.Namespace) -> Report:
     paper = publications.find(options.publication)
     tables = tuple(sorted(set(options.table or paper.tables)))
     rows = paper.select(tables, options.row)
+    if options.more_terms:
+        check_more_terms(paper, rows)
     if options.output is not None:
         check_writable(options.output)
     with progress("rows", len(rows)) as advance:
@@ -105,6 +114,7 @@ def _compute(options: argparse.Namespace) -> Report:
             rows=options.row,
             method=options.method,
             modes=options.modes,
+            more_terms=options.more_terms,
             workers=options.workers,
             progress=advance,
         )

@@ -5,7 +5,7 @@ Its own matters, the program of its appendix, its figures and its conclusions, a
 """
 
 from compare.publication import Publication
-from compare.report import render, row, tables
+from compare.report import render, row, tables, terms
 from compare.report.errata import errata
 
 PUBLICATION = Publication(
@@ -20,6 +20,7 @@ PUBLICATION = Publication(
     explain=row.explain,
     rendering=render.RENDERING,
     modes=2,
+    more_terms=terms.MORE_TERMS,
     is_named=tables.is_named,
 )
 

@@ -2,17 +2,21 @@
 
 The listing sums five terms of section 4.6. H_s falls like 1/s^2, C_s and its integrals like 1/s
 each, and acts on P in pairs at the frequency s omega_L: what S terms leave out of P falls like
-S^-5. Rows keep five, as printed; this is asked for where the limit matters.
+S^-5. Rows keep five, as printed; `verify --more-terms` puts this beside them.
 """
 
-from dataclasses import dataclass
+import math
+from dataclasses import asdict, dataclass
+from typing import Any
 
 import numpy as np
 
+from compare import publication
+from compare.both_routes import compare_routes
+from compare.report.row import TERMS as PRINTED
 from compare.report.tables import Row
 from floquet import monodromy
 from floquet.weak_form import galerkin
-from hill import characteristic
 from hill.stability import Verdict, stability_of
 
 # Both routes take so many; the determinant's band widens with every one.
@@ -34,6 +38,8 @@ class MoreTerms:
         Terms kept for `T_hill`, `T_floquet` and `verdict`.
     T_hill, T_floquet : float
         T by both routes.
+    routes_agree : bool
+        Whether they agree on P within their bounds.
     T_limit : float
         T of the extrapolated P.
     T_limit_estimate : float
@@ -48,6 +54,7 @@ class MoreTerms:
     terms: int
     T_hill: float
     T_floquet: float
+    routes_agree: bool
     T_limit: float
     T_limit_estimate: float
     verdict: Verdict
@@ -65,20 +72,51 @@ def with_more_terms(row: Row, terms: int = TERMS) -> MoreTerms:
     if not row.initial_conditions:
         raise ValueError(f"row = {row.id!r}: has no initial conditions, must be one of Table 3 (b)")
     beam, forcing = row.beam(2), (row.Omega, row.gamma, row.run["eta"])
-    h = characteristic(beam.equation(*forcing, terms))
-    f, coarse, fine = (monodromy(galerkin(beam, *forcing, count)) for count in (terms, *FINER))
+    x = compare_routes(beam.equation(*forcing, terms), galerkin(beam, *forcing, terms))
+    coarse, fine = (monodromy(galerkin(beam, *forcing, count)) for count in FINER)
     moved = fine.polynomial - coarse.polynomial
     limit = fine.polynomial + moved / ((FINER[1] / FINER[0]) ** POWER - 1.0)
     doubt = float(np.max(np.abs(moved))) + coarse.error + fine.error
     found = stability_of(limit, doubt, row.Omega, row.run["eta"])
-    shown: set[Verdict] = {h.verdict, f.verdict}
-    shown.discard("undecided")
     return MoreTerms(
         terms=terms,
-        T_hill=h.T,
-        T_floquet=f.T,
+        T_hill=x.hill.T,
+        T_floquet=x.floquet.T,
+        routes_agree=x.routes_agree,
         T_limit=found.T,
         T_limit_estimate=found.T_error,
-        verdict=shown.pop() if len(shown) == 1 else "undecided",
+        verdict=x.verdict,
         verdict_in_the_limit=found.verdict,
     )
+
+
+def sums_terms(row: Row) -> bool:
+    """Whether a row has initial conditions."""
+    return bool(row.initial_conditions)
+
+
+def record(found: MoreTerms) -> dict[str, Any]:
+    """What JSON holds; null for an estimate that is none."""
+    values = asdict(found)
+    if not math.isfinite(found.T_limit_estimate):
+        values["T_limit_estimate"] = None
+    return values
+
+
+def line(row: Row, found: MoreTerms) -> str:
+    """In words."""
+    many = f"{found.terms} terms for {PRINTED}"
+    if found.verdict == found.verdict_in_the_limit == "stable":
+        return f"{row.id}: {many}, {_agreed(found)}: stable, and so in the limit."
+    return (
+        f"{row.id}: {many}, {_agreed(found)}: T = {found.T_hill:.6f}, {found.verdict}; "
+        f"in the limit {found.T_limit:.6f}, off by {found.T_limit_estimate:.0e} by estimate, "
+        f"{found.verdict_in_the_limit}."
+    )
+
+
+def _agreed(found: MoreTerms) -> str:
+    return "both routes" if found.routes_agree else "THE ROUTES DISAGREE"
+
+
+MORE_TERMS = publication.MoreTerms(sums_terms, with_more_terms, record, line)
