@@ -9,6 +9,7 @@ import numpy as np
 
 from floquet.arrays import Float
 from floquet.batch import polynomials
+from floquet.growth import ln_mu
 from floquet.integrate.ode import parameter_values, shape
 from floquet.integrate.step_length import perron_root
 from floquet.integrate.taylor import Taylor
@@ -71,6 +72,5 @@ def unchecked_growth(polynomials: Float, Omega: Float | float, eta: float = 0.0)
     companion[:, 0] = -polynomials[:, 1:]
     companion[:, np.arange(1, n), np.arange(n - 1)] = 1.0
     z = np.linalg.eigvals(companion).astype(complex)
-    root = np.sqrt(z - 1.0) * np.sqrt(z + 1.0)
-    larger = np.maximum(np.abs(z + root), np.abs(z - root))
-    return np.asarray(Omega / np.pi * np.log(larger).max(axis=-1) - eta)
+    growth = ln_mu(np.abs(z.real), np.abs(z.imag)).max(axis=-1)
+    return np.asarray(Omega / np.pi * growth - eta)

@@ -118,6 +118,13 @@ def _stabilities(p: Float, errors: Float, Omega: Float, eta: Float) -> Stabiliti
     return Stabilities(z, radius, T, T_error, verdict)
 
 
+def arguments(polynomials: Float, Omega: Float | float, eta: Float | float = 0.0) -> Float:
+    """T of (7.1.1) of many P, (k, n + 1), without a bound: for curves."""
+    z = roots(polynomials)
+    growth = log_R(np.abs(z.real), np.abs(z.imag)).max(axis=-1)
+    return np.asarray(Omega / np.pi * growth - eta)
+
+
 def roots(polynomials: Float) -> Complex:
     """Roots of monic polynomials (k, n + 1): (k, n), by descending real part."""
     n = polynomials.shape[1] - 1
@@ -255,9 +262,3 @@ def log_R(x: Float, y: Float) -> Float:
     small = np.minimum(above, 1e150)
     wide = np.log(2.0) + np.log(np.maximum(above, 1.0))
     return np.where(above < 1e150, np.log1p(small + np.sqrt(small * (small + 2.0))), wide)
-
-
-def modulus(z: Complex) -> Float:
-    """R = max |z +- sqrt(z^2 - 1)| >= 1, Eq. (7.1.2)."""
-    root = np.sqrt(z - 1.0) * np.sqrt(z + 1.0)
-    return np.maximum(np.abs(z + root), np.abs(z - root))

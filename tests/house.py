@@ -6,7 +6,6 @@ time only the trace sees.
 """
 
 import ast
-import gc
 import re
 import sys
 from collections.abc import Iterator
@@ -95,8 +94,8 @@ ANSWERS = {
     "hill.stability.Stabilities",
     "hill.stability.Stability",
     "hill.stability.Verdict",
+    "hill.stability.arguments",
     "hill.stability.by_signs",
-    "hill.stability.modulus",
     "hill.stability.separators",
     "hill.stability.stabilities",
     "hill.stability.stability_of",
@@ -240,10 +239,12 @@ def traced(*floors: str) -> Iterator[set[Call]]:
 
 
 def forget(*floors: str) -> None:
-    """Empty the caches of every function of these packages, wherever it is kept."""
-    for thing in gc.get_objects():
-        if isinstance(thing, _lru_cache_wrapper) and thing.__module__.split(".")[0] in floors:
-            thing.cache_clear()
+    """Empty the cache of every function that a module of these packages has."""
+    for name, module in list(sys.modules.items()):
+        if name.split(".")[0] in floors:
+            for thing in list(vars(module).values()):
+                if isinstance(thing, _lru_cache_wrapper):
+                    thing.cache_clear()
 
 
 def floors_above(floor: str, path: Path) -> set[str]:

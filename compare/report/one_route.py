@@ -13,11 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from compare.edges.field import PolynomialField as Family
-from compare.stability import indicators
 from floquet import weak_form
 from floquet.unchecked import unchecked_growth, unchecked_polynomials
 from floquet.weak_form import galerkin
 from hill import HillEquation, SteppedBeam, UniformBeam, axial_force, characteristic
+from hill.stability import arguments
 
 Beam = UniformBeam | SteppedBeam
 RouteName = Literal["hill", "floquet"]
@@ -89,7 +89,7 @@ def solve(route: RouteName, equations: Sequence[HillEquation]) -> Float:
 
 def T_of(route: RouteName, P: Float, Omega: Float | float, eta: float = 0.0) -> Float:
     """T of (7.1.1) by the same route, for many P at once, (k, n + 1)."""
-    return (indicators.growth if route == "hill" else unchecked_growth)(P, Omega, eta)
+    return (arguments if route == "hill" else unchecked_growth)(P, Omega, eta)
 
 
 def _by_hill(equations: Sequence[HillEquation]) -> Float:

@@ -15,7 +15,7 @@ from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 from scipy.optimize import brentq
 
-from hill.stability import modulus
+from compare.stability.roots import log_R, roots
 
 Complex = NDArray[np.complexfloating[Any]]
 Float = NDArray[np.floating[Any]]
@@ -92,18 +92,9 @@ def interpolate_in_Omega(P: Function, lo: float, hi: float, tail: float = TAIL) 
     return lambda Omega: inner(1.0 / Omega)
 
 
-def roots(P: Float) -> Complex:
-    """Roots of many monic polynomials, (k, n), as eigenvalues of their companion matrices."""
-    n = P.shape[1] - 1
-    companion = np.zeros((len(P), n, n))
-    companion[:, 0] = -P[:, 1:]
-    companion[:, np.arange(1, n), np.arange(n - 1)] = 1.0
-    return np.asarray(np.linalg.eigvals(companion), complex)
-
-
 def growth(P: Float, Omega: Float | float, eta: float = 0.0) -> Float:
     """T of (7.1.1) for many P at once, shape (k, n + 1)."""
-    return np.asarray(Omega / np.pi * np.log(modulus(roots(P))).max(axis=-1) - eta)
+    return np.asarray(Omega / np.pi * log_R(roots(P)).max(axis=-1) - eta)
 
 
 def indicator(kind: str, P: Float, Omega: Float, eta: float = 0.0) -> Float:
@@ -129,7 +120,7 @@ def indicator(kind: str, P: Float, Omega: Float, eta: float = 0.0) -> Float:
         return np.asarray(np.cosh(np.pi * eta / Omega) + z.real.min(axis=1))
     if eta > 0.0:
         off_axis = np.where(z.imag != 0.0, z, 0.0)
-        return np.asarray(eta - Omega / np.pi * np.log(modulus(off_axis)).max(axis=1))
+        return np.asarray(eta - Omega / np.pi * log_R(off_axis).max(axis=1))
     j, k = np.triu_indices(z.shape[1], 1)
     return np.asarray(np.prod((z[:, j] - z[:, k]) ** 2, axis=1).real)
 

@@ -46,17 +46,21 @@ def _growth(p: Float) -> Float:
         lone = most_isolated_root(a, b, c)
         result[grows] = np.maximum(_real(lone), _pair(a + lone, b + lone * (a + lone)))
         return result
-    z = values(p)
-    return _general(z).max(axis=0)
+    return np.asarray(log_R(roots(p.T)).max(axis=1))
 
 
-def values(polynomials: Float) -> Complex:
-    """All roots, (n, k): eigenvalues of companion matrices, one batch."""
-    n, count = len(polynomials) - 1, polynomials.shape[1]
-    companion = np.zeros((count, n, n))
+def roots(polynomials: Float) -> Complex:
+    """All roots of monic polynomials (k, n + 1), (k, n): eigenvalues of companion matrices."""
+    n = polynomials.shape[1] - 1
+    companion = np.zeros((len(polynomials), n, n))
+    companion[:, 0] = -polynomials[:, 1:]
     companion[:, np.arange(1, n), np.arange(n - 1)] = 1.0
-    companion[:, 0, :] = -polynomials[1:].T
-    return np.asarray(np.linalg.eigvals(companion).astype(complex).T)
+    return np.asarray(np.linalg.eigvals(companion), complex)
+
+
+def log_R(z: Complex) -> Float:
+    """Ln |z + (z^2 - 1)^(1/2)|, the larger, Eq. (7.1.2)."""
+    return _conjugate(z.real, np.abs(z.imag))
 
 
 def all_within(a: Float, b: Float, c: Float) -> NDArray[np.bool_]:
@@ -128,7 +132,3 @@ def _conjugate(x: Float, y: Float) -> Float:
         lift = np.where(y == 0.0, 0.0, y * y * (1.0 / (far + plus) + 1.0 / (near + minus)))
     above = 0.5 * (lift + (plus + minus - 2.0))
     return np.log1p(above + np.sqrt(above * (above + 2.0)))
-
-
-def _general(z: Complex) -> Float:
-    return _conjugate(z.real, np.abs(z.imag))
