@@ -55,6 +55,7 @@ DATA_MODULES = {
     "hill.vehicle.file",
     "hill.vehicle.parts",
     "hill.vehicle.units",
+    "hill.vehicle.validate",
     "hill.vehicle.vehicle",
 }
 # What the data's own modules do compute: the determinant's side of a beam.
