@@ -1,6 +1,7 @@
 """The witness's vehicle against closed forms and other people's numbers; none of hill's modes."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from itertools import pairwise
 from math import cos, cosh, inf, pi, sin, sinh, sqrt, tanh
 from typing import Any
@@ -235,6 +236,12 @@ def test_the_lowest_axial_frequency() -> None:
         cut = mesh(v)
         expected = (phase / 2.0) ** 2 * 7.0 / 3.0 * cut.scales.time**2
         assert bar(v, cut, 10).lowest == pytest.approx(expected, rel=1e-12)
+    # two rigid halves and a spring between them: omega^2 = 2 k/m of each
+    half = Section(length=1.0, mass_per_length=3.0, EI=5.0)
+    spring = Section(length=1e-6, mass_per_length=3.0, EI=5.0, EA=7e-6)
+    v = Vehicle(sections=(half, spring, half))
+    cut = mesh(v)
+    assert bar(v, cut, 10).lowest == pytest.approx(2.0 * 7.0 / 3.0 * cut.scales.time**2, rel=2e-6)
     rigid = Vehicle(sections=(UNIT,))
     assert bar(rigid, mesh(rigid), 10).lowest == inf
 
@@ -248,6 +255,16 @@ def test_masses_take_their_share_of_the_thrust() -> None:
     x, P = force(v, 0.0)
     mass = 2.0 + 6.0 * x + np.where(x > 0.5, 3.0, 0.0)
     np.testing.assert_allclose(P, mass / 16.0 - (x > 0.75), atol=1e-13)
+
+
+@pytest.mark.parametrize("ends", [("clamped", "free"), ("free", "pinned"), ("clamped", "pinned")])
+@pytest.mark.parametrize("square", [0.0, 5.0])
+def test_a_mass_at_a_held_end_changes_nothing(ends: Any, square: float) -> None:
+    """Where both are held the nose is, and the aft end slides."""
+    station = 2.0 if ends == ("free", "pinned") else 0.0
+    bare = Vehicle(sections=(ELASTIC,), ends=ends, thrust=Thrust(1.0, 1.5))
+    loaded = replace(bare, masses=(PointMass(station, 7.0),))
+    np.testing.assert_allclose(force(loaded, square)[1], force(bare, square)[1], atol=1e-13)
 
 
 def test_two_masses_on_a_rod() -> None:

@@ -19,22 +19,21 @@ def assembled(
 ) -> Equation:
     """The equation of a vehicle's matrices, in the vehicle's unit of time.
 
-    With a servo one of first order, of q, q' and the gimbal's angle; Hill's where the damping is
-    one number and does not pulsate, and the axial force has no sine; else one of second order.
+    With a servo one of first order, of q, q' and the gimbal's angle; Hill's where nothing but one
+    number damps it and the axial force has no sine; else one of second order.
     """
-    turn = np.outer(own.push, own.angle)
-    turn_rate = np.outer(own.push, own.rate)
-    if vehicle.servo_time > 0.0:
+    if vehicle.servo_time > 0.0 and (np.any(own.angle) or np.any(own.rate)):
         A = _with_servo(own, time, vehicle.servo_time, gamma)
         return PeriodicEquation.first_order(A=A, Omega=Omega, data_error=data_error)
+    turn = np.outer(own.push, own.angle)
+    turn_rate = np.outer(own.push, own.rate)
     K, C = (own.K + turn) / time**2, (own.C + turn_rate) / time
     G, sine = (own.cosine + turn) / time**2, own.sine / time**2
-    eta = C[0, 0]
-    if not np.any(turn_rate) and not np.any(sine) and np.array_equal(C, eta * np.eye(len(C))):
-        return HillEquation(K, G, gamma, Omega, eta, data_error=data_error)
+    if not (np.any(C) or np.any(sine)):
+        return HillEquation(K, G, gamma, Omega, own.eta / time, data_error=data_error)
     return PeriodicEquation(
         K=_pulsating(K, gamma * G, gamma * sine),
-        C=_pulsating(C, gamma * turn_rate / time),
+        C=_pulsating(C + own.eta / time * np.eye(len(C)), gamma * turn_rate / time),
         Omega=Omega,
         data_error=data_error,
     )
@@ -46,7 +45,7 @@ def _with_servo(own: Reduced, time: float, servo_time: float, gamma: float) -> F
     mean, cosine, sine = (np.zeros((2 * n + 1, 2 * n + 1)) for _ in range(3))
     mean[:n, n : 2 * n] = np.eye(n)
     mean[n : 2 * n, :n] = -own.K / time**2
-    mean[n : 2 * n, n : 2 * n] = -own.C / time
+    mean[n : 2 * n, n : 2 * n] = -(own.C + own.eta * np.eye(n)) / time
     mean[n : 2 * n, -1] = -own.push / time**2
     mean[-1] = np.concatenate([own.angle, own.rate * time, [-1.0]]) / servo_time
     cosine[n : 2 * n, :n] = -gamma * own.cosine / time**2

@@ -18,11 +18,14 @@ from typing import Any
 
 import numpy as np
 from scipy import sparse
-from scipy.sparse.linalg import LinearOperator, eigsh, splu
+from scipy.sparse.linalg import splu
 
-from floquet.arrays import Complex, Float
+from floquet.arrays import EPS, Complex, Float
 from floquet.vehicle.mesh import Mesh, rule
 from hill import LongitudinalResonance, Vehicle
+
+# Inverse iterations for the lowest frequency, whose square they know like (omega_1/omega_2)^4k.
+MAX_ITERATIONS = 500
 
 # Rounding of Omega decides a force that is this many times the thrust.
 LARGEST_FORCE = 1e12
@@ -79,21 +82,18 @@ class Bar:
         """The lowest omega^2 of free vibration; infinite where nothing can be shortened."""
         if not np.any(self.flexibility.data):
             return float("inf")
-        size = self.inertia.shape[0]
-        solve = LinearOperator(
-            (size, size), matvec=splu(sparse.csc_array(self.inertia)).solve, dtype=float
-        )
-        start = solve @ (self.flexibility @ np.cos(np.arange(size, dtype=float)))
-        found = eigsh(
-            self.inertia,
-            1,
-            M=self.flexibility,
-            sigma=0.0,
-            OPinv=solve,
-            v0=start,
-            return_eigenvectors=False,
-        )
-        return float(found[0])
+        # where one section alone gives way there are too few vectors for Lanczos
+        solve = splu(sparse.csc_array(self.inertia)).solve
+        load = self.flexibility @ np.cos(np.arange(self.inertia.shape[0], dtype=float))
+        value = 0.0
+        for _ in range(MAX_ITERATIONS):
+            force = solve(load)
+            again = self.flexibility @ force
+            before, value = value, float(force @ load) / float(force @ again)
+            if abs(value - before) <= 4.0 * EPS * value:
+                break
+            load = again / np.linalg.norm(again)
+        return value
 
 
 def bar(vehicle: Vehicle, mesh: Mesh, order: int) -> Bar:
@@ -167,7 +167,8 @@ def _joints(vehicle: Vehicle, mesh: Mesh, left: Any, right: Any) -> list[Joint]:
                 *(((int(right[k - 1]), False),) if k > 0 else ()),
                 *(((int(left[k]), True),) if k < count - 1 else ()),
             ),
-            mass=float(mesh.point_mass[k]),
+            # a mass that is held moves nothing
+            mass=0.0 if held.get(k, False) else float(mesh.point_mass[k]),
             thrust=float(thrust[k]),
             held=held.get(k, False),
         )

@@ -40,7 +40,7 @@ class Reduced:
 
     .. math::
 
-       \ddot q + C \dot q + K q + (1 + \gamma \cos \Omega t)\, p\, \beta
+       \ddot q + (C + \eta) \dot q + K q + (1 + \gamma \cos \Omega t)\, p\, \beta
            + \gamma (K_c \cos \Omega t + K_s \sin \Omega t) q = 0,
        \qquad \beta = a q + b \dot q
 
@@ -50,6 +50,8 @@ class Reduced:
         K_c, K_s: what the pulsating axial force and the thrust's direction do.
     push, angle, rate : (n,) ndarray
         p, a, b: the force of a gimbal turned by 1, and what turns it.
+    eta : float
+        Damping of every coordinate alike.
     """
 
     K: Float
@@ -59,6 +61,7 @@ class Reduced:
     push: Float
     angle: Float
     rate: Float
+    eta: float
 
     def turned(self, Q: Float) -> "Reduced":
         """The same in the coordinates Q q, Q orthogonal."""
@@ -70,6 +73,7 @@ class Reduced:
             push=Q @ self.push,
             angle=Q @ self.angle,
             rate=Q @ self.rate,
+            eta=self.eta,
         )
 
 
@@ -138,7 +142,7 @@ def reduced(vehicle: Vehicle, found: Elements, Omega: float, eta: float) -> Redu
     none = np.zeros(len(push))
     return Reduced(
         K=np.diag(shapes.square) + follow - T0 * found.tension,
-        C=_damping(vehicle, shapes, unit.time, eta),
+        C=_damping(vehicle, shapes, unit.time),
         cosine=follow - T0 * real,
         sine=T0 * imaginary,
         push=push,
@@ -146,6 +150,7 @@ def reduced(vehicle: Vehicle, found: Elements, Omega: float, eta: float) -> Redu
         rate=sum(
             (s.K_rate / unit.time * row for s, row in zip(vehicle.sensors, seen, strict=True)), none
         ),
+        eta=(vehicle.damping.eta + eta) * unit.time,
     )
 
 
@@ -167,13 +172,11 @@ def _pulsating(vehicle: Vehicle, found: Elements, Omega: float) -> tuple[Float, 
     return real, _tension(found.mesh, found.modes, P.imag)
 
 
-def _damping(vehicle: Vehicle, shapes: Modes, time: float, eta: float) -> Float:
-    """Modal ratios, eta and a matrix, added up."""
+def _damping(vehicle: Vehicle, shapes: Modes, time: float) -> Float:
+    """Modal ratios and a matrix, added up."""
     damping, n = vehicle.damping, len(shapes.square)
-    matrix = (damping.eta + eta) * time * np.eye(n)
-    if damping.ratios:
-        every = [damping.ratios[min(k, len(damping.ratios) - 1)] for k in range(n)]
-        matrix += np.diag(2.0 * np.array(every) * np.sqrt(shapes.square))
+    every = [damping.ratios[min(k, len(damping.ratios) - 1)] for k in range(n) if damping.ratios]
+    matrix = np.diag(2.0 * np.array(every or [0.0] * n) * np.sqrt(shapes.square))
     if damping.matrix is not None:
         matrix += time * np.array(damping.matrix)
     return matrix

@@ -1,0 +1,118 @@
+r"""A corner of Hill's infinite matrix, with what solves it about one exponent.
+
+With q = exp(lambda t) sum_m q_m exp(i m Omega t) the harmonics obey, for every m,
+
+.. math::
+
+   (s_m^2 + s_m C_0 + K_0) q_m + \sum_{k \ne 0} (s_{m-k} C_k + K_k) q_{m-k} = 0,
+   \qquad s_m = \lambda + i m \Omega .
+
+In the states (q_m, v_m) that is (H - lambda) x = 0 with a constant H. An equation of first order
+has s_m q_m - sum A_k q_(m-k) = 0, and no v.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from scipy.linalg import lu_factor, lu_solve
+
+from hill.arrays import Complex
+from hill.periodic import Fourier, PeriodicEquation
+
+
+@dataclass(frozen=True, eq=False)
+class Corner:
+    """Harmonics of an equation from one to another.
+
+    Attributes
+    ----------
+    equation : PeriodicEquation
+    low, high : int
+    """
+
+    equation: PeriodicEquation
+    low: int
+    high: int
+
+    @property
+    def n(self) -> int:
+        """Coordinates."""
+        e = self.equation
+        return e.A.n if e.A is not None else e.order // 2
+
+    @property
+    def of_first_order(self) -> bool:
+        """Whether the states are the coordinates alone."""
+        return self.equation.A is not None
+
+    @cached_property
+    def harmonics(self) -> Any:
+        """M of every row, (n * harmonics,)."""
+        return np.repeat(np.arange(self.low, self.high + 1), self.n)
+
+    @cached_property
+    def stiffness(self) -> Complex:
+        """K_(m-m') in block (m, m'); -A of an equation of first order."""
+        e = self.equation
+        return -self._toeplitz(e.A) if e.A is not None else self._toeplitz(e.K)
+
+    @cached_property
+    def damping(self) -> Complex:
+        """C_(m-m') in block (m, m')."""
+        return self._toeplitz(self.equation.C)
+
+    def _toeplitz(self, matrix: Fourier | None) -> Complex:
+        assert matrix is not None
+        M = self.equation.M
+        terms: dict[int, Complex] = {0: matrix.mean + 0j}
+        for parts, unit in ((matrix.cos, 0.5), (matrix.sin, -0.5j)):
+            for k, part in parts.items():
+                for p, factor in ((k, unit), (-k, np.conj(unit))):
+                    terms[p] = np.asarray(terms.get(p, 0.0) + factor * part)
+        count, n = self.high - self.low + 1, self.n
+        whole = np.zeros((count, n, count, n), complex)
+        for p, term in terms.items():
+            for m in range(max(p, 0), min(count + p, count)):
+                whole[m, :, m - p] = term if M is None else np.linalg.solve(M, term)
+        return whole.reshape(count * n, count * n)
+
+    def state(self, vector: Complex, harmonic: int) -> Complex:
+        """A steady state's vector, in one harmonic of this corner."""
+        n, count = self.n, self.high - self.low + 1
+        found = np.zeros((len(vector) // n, count, n), complex)
+        found[:, harmonic - self.low] = vector.reshape(-1, n)
+        return found.ravel()
+
+    @property
+    def Omega_m(self) -> Any:
+        """M Omega of every row, a column."""
+        return (self.equation.Omega * self.harmonics)[:, None]
+
+    def about(self, exponent: complex) -> "Inverse":
+        """What applies (H - exponent)^-1."""
+        s = exponent + 1j * self.Omega_m
+        if self.of_first_order:
+            matrix = np.diag(s[:, 0]) + self.stiffness
+        else:
+            matrix = np.diag(s[:, 0] ** 2) + self.damping * s[:, 0] + self.stiffness
+        return Inverse(self, s, lu_factor(matrix, check_finite=False))
+
+
+@dataclass(frozen=True, eq=False)
+class Inverse:
+    """(H - exponent)^-1 of a corner, by the elimination of the velocities."""
+
+    corner: Corner
+    s: Complex
+    factors: Any
+
+    def right(self, x: Complex) -> Complex:
+        """(H - exponent)^-1 x."""
+        if self.corner.of_first_order:
+            return -lu_solve(self.factors, x, check_finite=False)
+        f, g = np.split(x, 2)
+        load = g + self.s * f + self.corner.damping @ f
+        q = -lu_solve(self.factors, load, check_finite=False)
+        return np.concatenate([q, f + self.s * q])
