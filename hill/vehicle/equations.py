@@ -25,19 +25,23 @@ def equation(
     per_time = known.modes.mesh.scales.time**-2
     size = _thrust(vehicle, known) * per_time
     F = _elastic(known) * per_time + size * pull.steady
-    G, S = gamma * size * pull.cos, gamma * size * pull.sin
-    C = _damping(vehicle, known)
+    G, S = size * pull.cos, size * pull.sin
+    C, number = _damping(vehicle, known), eta * np.eye(len(F))
     if servo:
-        with_eta = C + eta * np.eye(len(F))
-        return _with_servo(
-            vehicle, (F, G, S), with_eta, size * known.arm, (gain, rate), gamma, Omega, pull.error
+        # deflections and rotations of unit coordinates, in the vehicle's units
+        unit = known.modes.mesh.scales
+        push = vehicle.thrust.mean * known.arm / unit.mass**0.5
+        seen = (x / (unit.mass**0.5 * unit.length) for x in (gain, rate))
+        A = _with_servo(
+            (F, gamma * G, gamma * S), C + number, (push, *seen), vehicle.servo_time, gamma
         )
+        return PeriodicEquation.first_order(A=A, Omega=Omega, data_error=pull.error)
     rates = size * np.outer(known.arm, rate)
     if not (np.any(rates) or np.any(C) or np.any(S)):
-        return HillEquation(F, size * pull.cos, gamma, Omega, eta, data_error=pull.error)
+        return HillEquation(F, G, gamma, Omega, eta, data_error=pull.error)
     return PeriodicEquation(
-        K=_pulsating("K", F, G, S),
-        C=_pulsating("C", C + eta * np.eye(len(F)) + rates, gamma * rates),
+        K=_pulsating("K", F, gamma * G, gamma * S),
+        C=_pulsating("C", C + number + rates, gamma * rates),
         Omega=Omega,
         data_error=pull.error,
     )
@@ -96,42 +100,27 @@ def _pulsating(name: str, mean: Float, cos: Float, sin: Float | None = None) -> 
 
 
 def _with_servo(
-    vehicle: Vehicle,
     stiffness: tuple[Float, Float, Float],
     damping: Float,
-    push: Float,
-    turn: tuple[Float, Float],
+    gimbal: tuple[Float, ...],
+    servo_time: float,
     gamma: float,
-    Omega: float,
-    error: float,
-) -> PeriodicEquation:
-    """First order, in (q, q'/w, theta/c); w and c make the blocks about equal in size.
+) -> Fourier:
+    """A of x' = A x for x = (q, q', theta), theta the gimbal's angle.
 
     q'' + C q' + K q + push (1 + gamma cos Omega t) theta = 0 and
     servo_time theta' + theta = gain q + rate q'.
     """
     n = len(damping)
-    F, G, S = stiffness
-    gain, rate = turn
-    w = float(np.sqrt(np.abs(F).max()))
-    turning = np.concatenate([gain, w * rate]) / vehicle.servo_time
-    pushing = push / w
-    ratio = np.linalg.norm(turning) / np.linalg.norm(pushing) if np.any(pushing) else 1.0
-    c = float(np.sqrt(ratio))
+    push, gain, rate = gimbal
 
-    def first_order(K: Float, force: Float) -> Float:
+    def lower(K: Float, force: Float) -> Float:
         A = np.zeros((2 * n + 1, 2 * n + 1))
-        A[n:-1, :n] = -K / w
-        A[n:-1, -1] = -c * force
+        A[n:-1, :n], A[n:-1, -1] = -K, -force
         return A
 
-    mean = first_order(F, pushing)
-    mean[:n, n:-1] = w * np.eye(n)
+    mean = lower(stiffness[0], push)
+    mean[:n, n:-1] = np.eye(n)
     mean[n:-1, n:-1] = -damping
-    mean[-1, :-1] = turning / c
-    mean[-1, -1] = -1.0 / vehicle.servo_time
-    return PeriodicEquation.first_order(
-        A=_pulsating("A", mean, first_order(G, gamma * pushing), first_order(S, 0.0 * pushing)),
-        Omega=Omega,
-        data_error=error,
-    )
+    mean[-1] = np.concatenate([gain, rate, [-1.0]]) / servo_time
+    return _pulsating("A", mean, lower(stiffness[1], gamma * push), lower(stiffness[2], 0.0 * push))

@@ -218,7 +218,7 @@ class Vehicle:
             Where the damping is one number and nothing turns the gimbal by a rate.
         PeriodicEquation
             Otherwise: of second order with modal damping, rates, or the sine part of a damped
-            axial force; of first order, (q, q'/w, theta/c) with fixed w and c, with a servo.
+            axial force; of first order, of (q, q', the gimbal's angle), with a servo.
             ``data_error`` is what the modes and the integrals are known to.
 
         Raises
