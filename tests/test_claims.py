@@ -141,7 +141,7 @@ def test_another_threshold_is_another_verdict(
     assert check_of(name)().verdict == verdict
 
 
-def test_a_gap_without_its_quadrature_would_be_confirmed(
+def test_a_gap_without_the_force_out_of_phase_would_be_confirmed(
     judged: dict[str, JudgedClaim], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     assert judged["gap"].finding.verdict == "qualified"

@@ -242,7 +242,7 @@ def test_longitudinal_integral_in_closed_form() -> None:
         exact = np.real(np.tan(0.5 * z) / z)
         assert s.y == pytest.approx(exact, rel=1e-10, abs=1e-12)
     damped = next(s for s in data(27).select("curve") if s.name == "g = 0.04")
-    # "At resonance integral values become finite with damping and actually pass through zero"
+    # section 7.3.2: finite with damping, and zero close to resonance
     assert abs(np.interp(1.0, damped.x, damped.y)) < 0.02 * damped.y.max()
 
 

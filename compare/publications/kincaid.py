@@ -10,8 +10,7 @@ from compare.report.errata import errata
 
 PUBLICATION = Publication(
     name="kincaid",
-    title="Kincaid, Pearson, Hill and Wang: dynamic stability of a free-free beam under a "
-    "gimbaled, pulsating thrust",
+    title="Kincaid, Pearson, Hill and Wang: a beam under a gimbaled, pulsating thrust",
     tables=tables.TABLES,
     rows=tables.rows,
     errata=errata,

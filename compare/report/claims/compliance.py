@@ -122,8 +122,8 @@ def damped_integral() -> Finding:
     verdict = graded(stated and vanishes, stated)
     because = (
         f"The real part does so, but the force does not vanish with it: at resonance it is "
-        f"{abs(at[0].imag):.1f}, in quadrature with the thrust, its largest; the report's equation "
-        "leaves that part out."
+        f"{abs(at[0].imag):.1f}, a quarter of a period behind the thrust, its largest; the "
+        "report's equation leaves that part out."
     )
     return Finding(tuple(numbers), verdict, because)
 

@@ -18,7 +18,7 @@ from hill import HillEquation, UniformBeam
 
 @lru_cache(maxsize=64)
 def sine_alone(beam: UniformBeam, Omega: float, gamma: float = 0.1) -> Both:
-    """T with nothing but the part of the pulsating force in quadrature with the thrust."""
+    """T with only the part of the pulsating force a quarter of a period behind the thrust."""
     closed, summed = (
         HillEquation(
             equation(route, beam, Omega, gamma).F, out_of_phase(route, beam, Omega), gamma, Omega

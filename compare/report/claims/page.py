@@ -20,7 +20,8 @@ Hill's determinant with its tail summed, and the monodromy matrix. A number stan
 two agree within their own error bounds; where one column is empty there is only one way to it.
 Unless a line says otherwise the beam is that of Table 1 (uniform) or Table 2 (stepped), gamma = .1,
 no damping, omega_L infinite. T is the report's characteristic argument, twice the growth exponent.
-Section numbers are the report's; the scan has no page numbers.
+Claims are restated here; the section numbers say where the report makes them (the scan has no page
+numbers).
 
 The verdict follows from the numbers by the rule that is given with each claim: **confirmed**,
 **qualified** (true with a restriction that the report does not make), or **refuted**. "Visible" is
@@ -56,7 +57,8 @@ def _entry(one: JudgedClaim) -> list[str]:
     claim, finding = one.claim, one.finding
     lines = [f"## {claim.id}", "", f"**{finding.verdict.capitalize()}** ({claim.section}). "]
     lines[-1] += finding.because
-    lines += ["", f"> {claim.claim}", "", f"Computed: {claim.computed}", "", f"Rule: {claim.rule}"]
+    lines += ["", f"Claim: {claim.claim}", ""]
+    lines += [f"Computed: {claim.computed}", "", f"Rule: {claim.rule}"]
     lines += ["", "| number | Hill | Floquet |", "| --- | ---: | ---: |"]
     for number in finding.numbers:
         label = number.label.replace("|", "\\|")

@@ -15,7 +15,7 @@ STRIDE = 0.02
 BROAD = 10.0
 # "Slightly": no more than a fifth.
 SLIGHTLY = 0.2
-QUADRATURE = "the part of the force in quadrature, which that leaves out"
+OUT_OF_PHASE = "the part of the force out of phase, which that leaves out"
 
 
 def bar(g: float) -> UniformBeam:
@@ -53,10 +53,10 @@ def gap() -> Finding:
         ends = [boundary(beam, far, 2.0) for far in (1.9625, 2.0375)]
         numbers += [ends[0].number("stable from"), ends[1].number("stable to")]
     other = sine_alone(beam, 2.0)
-    numbers.append(other.number("T at Omega = 2, the part in quadrature alone", 4))
+    numbers.append(other.number("T at Omega = 2, the part out of phase alone", 4))
     verdict = graded(at.stable and other.stable, at.stable)
     because = (
-        f"True of the report's equation; {QUADRATURE}, is largest there and alone makes T = "
+        f"True of the report's equation; {OUT_OF_PHASE}, is largest there and alone makes T = "
         f"{other.hill:.2f}: the gap is none."
     )
     return Finding(tuple(numbers), verdict, because)
@@ -71,12 +71,12 @@ def above_gap() -> Finding:
     numbers = (
         less.number("largest T, Omega = 2 to 2.12, g = .04"),
         more.number("largest T, Omega = 2 to 2.12, g = .08"),
-        other.number("T at Omega = 2.05, g = .08, the part in quadrature alone", 4),
+        other.number("T at Omega = 2.05, g = .08, the part out of phase alone", 4),
     )
     gone = more.stable and not less.stable
     verdict = graded(gone and other.stable, gone)
     because = (
-        f"True of the report's equation; {QUADRATURE}, alone keeps T = {other.hill:.2f} at 2.05."
+        f"True of the report's equation; {OUT_OF_PHASE}, alone keeps T = {other.hill:.2f} at 2.05."
     )
     return Finding(numbers, verdict, because)
 
@@ -133,11 +133,11 @@ def at_four_damped() -> Finding:
     numbers = (
         some.number("largest T, Omega = 3.95 to 4.05, g = .04"),
         more.number("largest T, Omega = 3.95 to 4.05, g = .08"),
-        other.number("T at Omega = 4, g = .08, the part in quadrature alone", 4),
+        other.number("T at Omega = 4, g = .08, the part out of phase alone", 4),
     )
     verdict = graded(more.stable and other.stable, more.stable)
     because = (
-        f"True of the report's equation with g = .08, not with .04; {QUADRATURE}, alone keeps "
+        f"True of the report's equation with g = .08, not with .04; {OUT_OF_PHASE}, alone keeps "
         f"T = {other.hill:.2f} at 4."
     )
     return Finding(numbers, verdict, because)
@@ -173,7 +173,7 @@ def narrowed() -> Finding:
         *(x.number(f"from, g = {g:g}") for g, x in low.items()),
         *(x.number(f"to, g = {g:g}") for g, x in high.items()),
         *(T.number(f"largest T, g = {g:g}") for g, T in top.items()),
-        other.number("T at Omega = 2, g = .08, the part in quadrature alone", 4),
+        other.number("T at Omega = 2, g = .08, the part out of phase alone", 4),
     )
     narrower = {g: 1.0 - width[g] / width[0.0] for g in (0.04, 0.08)}
     severe = min(T.hill for T in top.values()) > 10.0 * ETA
@@ -181,7 +181,7 @@ def narrowed() -> Finding:
     because = (
         f"T falls from no limit to {top[0.04].hill:.2f} and {top[0.08].hill:.2f}, still more than "
         f"ten times eta; but with g = .08 the region loses {share(narrower[0.08])} of its width in "
-        "the report's equation, and in the lost part, at 2, the part of the force in quadrature "
+        "the report's equation, and in the lost part, at 2, the part of the force out of phase "
         f"alone makes T = {other.hill:.2f}."
     )
     return Finding(numbers, verdict, because)
@@ -195,7 +195,7 @@ def infinite_amplitude() -> Finding:
     numbers = (
         near.number("T at Omega = 1.99, g = 0"),
         T.number("largest T, Omega = 1.74 to 2.1, g = .04"),
-        other.number("T at Omega = 2, g = .04, the part in quadrature alone", 4),
+        other.number("T at Omega = 2, g = .04, the part out of phase alone", 4),
     )
     finite = max(T.hill, other.hill)
     verdict = graded(finite > near.hill, finite > 10.0)

@@ -33,7 +33,7 @@ class Claim:
     id, section, title
         Its name here, where it stands, and a few words for a table.
     claim : str
-        As the report puts it, or nearly.
+        What the report concludes there, in other words than its own.
     computed, rule : str
         What is computed for it, and how the verdict follows from that.
     expected : str
