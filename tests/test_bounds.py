@@ -13,6 +13,7 @@ from floquet.accuracy import amplitudes, bounded
 from floquet.charpoly import MAX_EXACT, characteristic_polynomial, characteristic_polynomials
 from floquet.eigenvalues import discs_from_matrix, discs_from_polynomial
 from floquet.growth import _beyond
+from floquet.sensitivity.equation import _of_multiplier, _of_z
 from hill.stability import by_signs, root_radii, separators
 
 EPS = 2.0**-52
@@ -347,3 +348,30 @@ def test_signs_of_all_corners_are_tried() -> None:
             apart = np.abs(z[:, None] - found).min(axis=1)
             for radius in tried:
                 assert np.all(apart <= radius + 1e-6)
+
+
+def ln_larger(z: Any) -> tuple[Any, Any]:
+    """Ln |mu| of z = (mu + 1/mu)/2, and its derivative."""
+    mu = np.exp(np.arccosh(z))
+    return np.abs(np.log(np.abs(mu))), 2.0 / np.where(np.abs(mu) > 1.0, mu - 1 / mu, 1 / mu - mu)
+
+
+@pytest.mark.parametrize("of", ["z", "multiplier"])
+def test_growth_and_its_slope_are_bounded_in_the_whole_disc(of: str) -> None:
+    """At 400 points on the rim of each of 300 discs, up to an eighth of what T is refused at."""
+    rng = np.random.default_rng(4)
+    z = rng.uniform(-1.6, 1.6, 300) + 1j * rng.choice([0.0, 0.01, 0.5], 300)
+    nearest = np.minimum(np.abs(z - 1.0), np.abs(z + 1.0)) if of == "z" else np.abs(z)
+    radius = nearest * 10.0 ** rng.uniform(-8, -1, 300)
+    rim = z[:, None] + 0.999999 * radius[:, None] * np.exp(
+        2j * np.pi * rng.uniform(size=(300, 400))
+    )
+    found = (_of_z if of == "z" else _of_multiplier)(z, radius)
+    value, slope = ln_larger(rim) if of == "z" else (np.log(np.abs(rim)), 1.0 / rim)
+    rounding = 1e-14 / nearest[:, None] ** 2
+    assert np.all(value >= found.least[:, None] - rounding)
+    assert np.all(value <= found.most[:, None] + rounding)
+    # across the cut [-1, 1] the larger mu is the other one, and the slope changes its sign
+    signs = (1.0, -1.0) if of == "z" else (1.0,)
+    apart = np.min([np.abs(slope - sign * found.slope[:, None]) for sign in signs], axis=0)
+    assert np.all(apart <= found.slope_error[:, None] + rounding)

@@ -7,7 +7,7 @@ largest growth.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from floquet.arrays import EPS, Complex, Float
 from floquet.eigenvalues import discs_from_polynomial, sorted_eigenvalues
+from floquet.growth import ln_mu
 from floquet.integrate.ode import parameter_values, shape, terms
 from floquet.integrate.step_length import fastest_rate
 from floquet.integrate.taylor import Taylor
@@ -147,24 +148,36 @@ class _Growth:
     slope_error: Float
 
 
-def _growth(roots: Roots, logarithm: Callable[[Complex], tuple[Float, Complex]]) -> _Growth:
-    around = np.append(0.0, np.exp(2j * np.pi * np.arange(16) / 16))
+def _growth(roots: Roots, logarithm: Callable[[Complex, Float], _Growth]) -> _Growth:
     # an edge itself is singular, and refused
     with np.errstate(divide="ignore", invalid="ignore"):
-        value, slope = logarithm(roots.values[:, None] + roots.radius[:, None] * around)
-        off = np.abs(slope - slope[:, :1]).max(axis=1) + 8.0 * EPS * np.abs(slope[:, 0])
-    return _Growth(value[:, 0], value.min(axis=1), value.max(axis=1), slope[:, 0], off)
+        found = logarithm(roots.values, roots.radius)
+    return replace(found, slope_error=found.slope_error + 8.0 * EPS * np.abs(found.slope))
 
 
-def _of_z(z: Complex) -> tuple[Float, Complex]:
+def _of_z(z: Complex, radius: Float) -> _Growth:
     """Logarithm ln |mu|, and d ln mu/dz, for mu = z +- (z^2 - 1)^(1/2), the larger."""
     root = np.sqrt(z - 1.0) * np.sqrt(z + 1.0)
     root = np.where(np.abs(z + root) >= np.abs(z - root), root, -root)
-    return np.log(np.abs(z + root)), 1.0 / root
+    x, y = np.abs(z.real), np.abs(z.imag)
+    # the slope's own is z (z^2 - 1)^(-3/2)
+    nearest = [np.maximum(np.abs(z - edge) - radius, 0.0) for edge in (1.0, -1.0)]
+    steepest = (np.abs(z) + radius) / (nearest[0] * nearest[1]) ** 1.5
+    return _Growth(
+        value=ln_mu(x, y),
+        least=ln_mu(np.maximum(x - radius, 0.0), np.maximum(y - radius, 0.0)),
+        most=ln_mu(x + radius, y + radius),
+        slope=1.0 / root,
+        slope_error=radius * steepest,
+    )
 
 
-def _of_multiplier(mu: Complex) -> tuple[Float, Complex]:
-    return np.log(np.abs(mu)), 1.0 / mu
+def _of_multiplier(mu: Complex, radius: Float) -> _Growth:
+    size = np.abs(mu)
+    least = np.maximum(size - radius, 0.0)
+    return _Growth(
+        np.log(size), np.log(least), np.log(size + radius), 1.0 / mu, radius / size / least
+    )
 
 
 def _lead(roots: Roots, growth: _Growth) -> int | None:
