@@ -4,9 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from floquet.arrays import EPS, Bool, Complex, Float
+from floquet.arrays import EPS, Bool, Complex, Float, frozen
 
-RADII = 2.0 ** np.arange(-54.0, 3.5, 0.5)
+RADII = frozen(2.0 ** np.arange(-54.0, 3.5, 0.5))
 """Radii tried about an eigenvalue, in units of 1 + its modulus."""
 
 

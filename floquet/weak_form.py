@@ -5,13 +5,14 @@ the modes is not used, and the axial force of the stepped bar is solved for nume
 """
 
 from collections.abc import Callable
-from functools import cache
+from functools import cache, lru_cache
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import brentq
 
+from floquet.arrays import frozen
 from hill import HillEquation, LongitudinalResonance, SteppedBeam, UniformBeam, checks
 
 Array = NDArray[np.float64]
@@ -224,10 +225,10 @@ def _rule(wavenumber: float, step: float) -> tuple[Array, Array]:
 @cache
 def _gauss() -> tuple[Array, Array]:
     node, weight = np.polynomial.legendre.leggauss(POINTS)
-    return node, weight
+    return frozen(node), frozen(weight)
 
 
-@cache
+@lru_cache(maxsize=64)
 def _roots(count: int) -> Array:
     """lambda_n of cos x = 1/cosh x, as (n + 1/2) pi + d so that d is found to full precision."""
 
@@ -236,7 +237,8 @@ def _roots(count: int) -> Array:
         return float(-((-1) ** n) * np.sin(d) - 2.0 * decay / (1.0 + decay**2))
 
     pairs = [(n, (n + 0.5) * np.pi) for n in range(1, count + 1)]
-    return np.array([c + brentq(residual, -1.0, 1.0, (n,), xtol=1e-20) for n, c in pairs], float)
+    found = [c + brentq(residual, -1.0, 1.0, (n,), xtol=1e-20) for n, c in pairs]
+    return frozen(np.array(found, float))
 
 
 def _trial(roots: Array, xi: Array) -> Array:

@@ -11,12 +11,12 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from hill.arrays import EPS, Bool, Complex, Float
+from hill.arrays import EPS, Bool, Complex, Float, frozen
 
 Verdict = Literal["stable", "unstable", "undecided"]
 
 # Radii tried for a root's disc, in units of 1 + |z|: from below an ulp to beyond every other root.
-RADII = 2.0 ** np.arange(-54.0, 3.5, 0.5)
+RADII = frozen(2.0 ** np.arange(-54.0, 3.5, 0.5))
 
 # Polynomials at a time: the discs' candidates stay in the cache.
 CHUNK = 1024

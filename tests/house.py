@@ -139,6 +139,12 @@ EXCUSED = (
 )
 
 
+def dotted(floor: str, path: Path) -> str:
+    """The name that a module is imported by."""
+    parts = path.relative_to(ROOTS[floor]).with_suffix("").parts
+    return ".".join([floor, *(part for part in parts if part != "__init__")])
+
+
 def name_of(floor: str, path: Path) -> str:
     return f"{floor}/{path.relative_to(ROOTS[floor]).as_posix()}"
 
@@ -167,15 +173,15 @@ def references(path: Path) -> set[str]:
                 known[alias.asname or alias.name] = f"{node.module}.{alias.name}"
                 found.add(f"{node.module}.{alias.name}")
 
-    def dotted(node: ast.AST) -> str | None:
+    def whole_name(node: ast.AST) -> str | None:
         if isinstance(node, ast.Name):
             return known.get(node.id)
         if isinstance(node, ast.Attribute):
-            before = dotted(node.value)
+            before = whole_name(node.value)
             return before and f"{before}.{node.attr}"
         return None
 
-    return found | {name for node in ast.walk(tree(path)) if (name := dotted(node))}
+    return found | {name for node in ast.walk(tree(path)) if (name := whole_name(node))}
 
 
 @cache

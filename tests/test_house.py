@@ -1,8 +1,12 @@
 """The house: which floor may look at which, and what every module owes its reader."""
 
 import ast
+import inspect
+from dataclasses import is_dataclass
+from importlib import import_module
 from pathlib import Path
 
+import numpy as np
 import pytest
 from house import (
     COMPUTED,
@@ -11,9 +15,11 @@ from house import (
     MODULES,
     ROOTS,
     beyond_data,
+    dotted,
     floors_above,
     home,
     name_of,
+    named,
     own_physics,
     references,
     tree,
@@ -197,3 +203,54 @@ def test_exceptions_are_needed() -> None:
     for name in LONGER:
         path = ROOTS[name.split("/")[0]] / name.split("/", 1)[1]
         assert len(path.read_text(encoding="utf-8").splitlines()) > LONGEST
+
+
+# ---- what is shared ------------------------------------------------------------------------------
+
+
+# their caches are of three tables
+OF_PAPERS = ("compare/report/", "compare/publications/")
+
+
+def arrays_of(thing: object) -> list[np.ndarray]:
+    """An array, or those that a tuple, a mapping or a dataclass has."""
+    if isinstance(thing, np.ndarray):
+        return [thing]
+    if isinstance(thing, dict):
+        return [array for value in thing.values() for array in arrays_of(value)]
+    if isinstance(thing, tuple):
+        return [array for value in thing for array in arrays_of(value)]
+    inside = vars(thing).values() if is_dataclass(thing) and not isinstance(thing, type) else ()
+    return [value for value in inside if isinstance(value, np.ndarray)]
+
+
+@pytest.mark.parametrize(
+    "name",
+    sorted(dotted(*module) for module in MODULES if not name_of(*module).startswith(OF_PAPERS)),
+)
+def test_what_a_module_shares_cannot_be_written_to(name: str) -> None:
+    for key, value in vars(import_module(name)).items():
+        assert not any(array.flags.writeable for array in arrays_of(value)), key
+        if hasattr(value, "cache_info") and inspect.signature(value).parameters:
+            assert value.cache_info().maxsize is not None, f"{key} grows without end"
+
+
+@pytest.mark.parametrize(
+    ("cached", "given"),
+    [
+        ("floquet.weak_form._gauss", ()),
+        ("floquet.weak_form._roots", (3,)),
+        ("hill.determinant.finite._gauss", ()),
+        ("hill.matrices.modes.mode", (2,)),
+        ("hill.matrices.stepped._bends", (2, 0.0, 0.6)),
+        ("hill.matrices.stepped._mass_part", (2, 0.0, 0.6)),
+        ("hill.matrices.stepped._pairs", (2, 0.0, 0.6)),
+        ("hill.matrices.stepped._products", (2,)),
+        ("hill.matrices.uniform._pairs", (2, 0.3)),
+        ("hill.matrices.uniform._products", (2,)),
+    ],
+)
+def test_what_is_remembered_cannot_be_written_to(cached: str, given: tuple[float, ...]) -> None:
+    found = arrays_of(named(cached)(*given))
+    assert found
+    assert not any(array.flags.writeable for array in found)

@@ -4,12 +4,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from floquet.arrays import Float
+from floquet.arrays import Float, frozen
 
 Term = tuple[Float, float]
 """A matrix and the frequency of the cosine that multiplies it (0 for the constant stiffness)."""
 
-RADII = np.geomspace(0.3, 40.0, 48)
+RADII = frozen(np.geomspace(0.3, 40.0, 48))
 """Circles tried, in units of one over the fastest rate; the best lies near order + 1 of them."""
 
 MAX_EXPONENT = 600.0

@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 from scipy.linalg.lapack import zgbtrf
 from scipy.special import zeta
 
-from hill.arrays import Complex, Float
+from hill.arrays import Complex, Float, frozen
 from hill.determinant.products import products
 from hill.equation import HillEquation
 
@@ -189,7 +189,7 @@ def log_block_tail(squares: Complex, alpha: Complex, M: int) -> Complex:
 def _gauss() -> tuple[Float, Float]:
     """Gauss and Legendre's nodes and weights on [0, 1]."""
     node, weight = np.polynomial.legendre.leggauss(NODES)
-    return 0.5 * (node + 1.0), 0.5 * weight
+    return frozen(0.5 * (node + 1.0)), frozen(0.5 * weight)
 
 
 def log_pair_tail(system: Blocks, alpha: Complex, M: int) -> Complex:

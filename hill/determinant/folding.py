@@ -25,7 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import zeta
 
-from hill.arrays import Complex, Float
+from hill.arrays import Complex, Float, frozen
 
 # Steps that bring S(s) from D(s) to its limit: each gains a factor (|B|/s^2)^2 in log det.
 RUN_IN = 2
@@ -33,8 +33,8 @@ RUN_IN = 2
 # Gauss nodes for the integral of g from M + 1/2 on, where it is analytic to twice the interval's
 # length and more (M >= 2 w + 20): 5.8**-14 of it is left.
 NODES, REMAINDER = 7, 2e-11
-_node, _weight = np.polynomial.legendre.leggauss(NODES)
-GAUSS = 0.5 * (_node + 1.0), 0.5 * _weight
+_node, _weight = map(frozen, np.polynomial.legendre.leggauss(NODES))
+GAUSS = frozen(0.5 * (_node + 1.0)), frozen(0.5 * _weight)
 
 # Series terms of the uncoupled rows: (w + |alpha|)/M < 1/2 leaves 4**-28 = 1e-17.
 SERIES = 28
@@ -42,7 +42,7 @@ SERIES = 28
 # Edges M + 1/2 +- alpha lie about [M, M + 1]; there the coupling's tail, which falls like the cube
 # of the distance s from w or faster, is a polynomial of degree 5 through Chebyshev's points: what
 # is left of it is C(8, 2)/s^6 times prod (s - s_i), or 0.05/s^6, s > M - w >= 10 + M/2.
-EDGES = 0.5 + 0.5 * np.cos(np.pi * (np.arange(6) + 0.5) / 6)
+EDGES = frozen(0.5 + 0.5 * np.cos(np.pi * (np.arange(6) + 0.5) / 6))
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,7 +13,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from hill.arrays import Complex
+from hill.arrays import Complex, frozen
 
 
 def eigenvalue(n: int) -> float:
@@ -32,6 +32,10 @@ class Exponentials:
     c: Complex
     kappa: Complex
     o: Complex
+
+    def __post_init__(self) -> None:
+        for array in (self.c, self.kappa, self.o):
+            frozen(array)
 
     def __call__(self, xi: float) -> float:
         """Value at the station `xi`."""

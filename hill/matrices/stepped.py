@@ -7,7 +7,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from hill.arrays import Float
+from hill.arrays import Float, frozen
 from hill.matrices.integrals import integral, sine_integral
 from hill.matrices.modes import UNIT, ZERO, Exponentials, curvature, eigenvalue, mode
 
@@ -30,8 +30,7 @@ def _mass_part(modes: int, a: float, b: float) -> Float:
     table[-2, -2] = (b**3 - a**3) / 3.0
     table[-2, -1] = table[-1, -2] = (b**2 - a**2) / 2.0
     table[-1, -1] = b - a
-    table.setflags(write=False)
-    return table
+    return frozen(table)
 
 
 def bending(modes: int, xi_c: float, inertia_ratio: float) -> Float:
@@ -48,8 +47,7 @@ def _bends(modes: int, a: float, b: float) -> Float:
     for j, f in enumerate(bends):
         for k in range(j + 1):
             table[j, k] = table[k, j] = integral(f * bends[k], a, b)
-    table.setflags(write=False)
-    return table
+    return frozen(table)
 
 
 def thrust(
@@ -89,8 +87,7 @@ def _pairs(modes: int, nu: float, start: float) -> Float:
     table = np.empty((modes + 2, modes + 2))
     for (j, k), both in _products(modes).items():
         table[j, k] = table[k, j] = sine_integral(both, nu, start, start, 1.0).real
-    table.setflags(write=False)
-    return table
+    return frozen(table)
 
 
 def force_distribution(nu: float, xi_c: float, area_ratio: float) -> tuple[float, float]:

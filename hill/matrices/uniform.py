@@ -9,7 +9,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from hill.arrays import Float
+from hill.arrays import Float, frozen
 from hill.matrices.integrals import sine_integral
 from hill.matrices.modes import UNIT, Exponentials, eigenvalue, mode, slope
 
@@ -87,8 +87,7 @@ def _pairs(modes: int, nu: complex) -> NDArray[np.complex128]:
     table = np.empty((modes + 1, modes + 1), complex)
     for (j, k), both in _products(modes).items():
         table[j, k] = table[k, j] = sine_integral(both, nu)
-    table.setflags(write=False)
-    return table
+    return frozen(table)
 
 
 def _scale(modes: int, T0: float) -> Float:

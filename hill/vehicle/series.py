@@ -13,7 +13,7 @@ from functools import cached_property
 
 import numpy as np
 
-from hill.arrays import Float
+from hill.arrays import Float, frozen
 from hill.vehicle.mesh import Mesh
 
 # Half an element is half a radian at most: terms in t fall like 2^-n/n!, a taper's like .2^n; those
@@ -22,7 +22,7 @@ TERMS = 26
 LAMBDA_TERMS = 9
 
 # s and the forces and displacements that belong together: s.T J s' is conserved.
-J = np.block([[np.zeros((2, 2)), np.eye(2)], [-np.eye(2), np.zeros((2, 2))]])
+J = frozen(np.block([[np.zeros((2, 2)), np.eye(2)], [-np.eye(2), np.zeros((2, 2))]]))
 
 
 @dataclass(frozen=True, eq=False)

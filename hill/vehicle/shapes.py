@@ -5,13 +5,13 @@ from functools import cached_property
 
 import numpy as np
 
-from hill.arrays import Float
+from hill.arrays import Float, frozen
 from hill.vehicle.mesh import Mesh
 from hill.vehicle.series import TERMS, Series, inverse
 
 # Gauss points of an element: two modes turn by less than 4 radians there, and 28 powers are exact.
 POINTS = 14
-NODES, WEIGHTS = np.polynomial.legendre.leggauss(POINTS)
+NODES, WEIGHTS = map(frozen, np.polynomial.legendre.leggauss(POINTS))
 
 Y, PSI, Q, M = range(4)
 

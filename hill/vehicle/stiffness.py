@@ -18,7 +18,7 @@ from itertools import pairwise
 import numpy as np
 from scipy.linalg import solve_banded
 
-from hill.arrays import EPS, Float
+from hill.arrays import EPS, Float, frozen
 from hill.vehicle.mesh import Mesh
 from hill.vehicle.series import Series
 
@@ -30,7 +30,11 @@ NEAR_POLE = 3.0
 SOFT_JOINT = 0.02
 
 # What an end lets move: y and psi, psi, nothing.
-MOVES = {"free": np.eye(2), "pinned": np.array([[0.0], [1.0]]), "clamped": np.zeros((2, 0))}
+MOVES = {
+    "free": frozen(np.eye(2)),
+    "pinned": frozen(np.array([[0.0], [1.0]])),
+    "clamped": frozen(np.zeros((2, 0))),
+}
 
 # K couples each displacement to 3 others each way at most.
 BAND = 3
