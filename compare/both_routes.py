@@ -6,11 +6,17 @@ from typing import Any, Literal
 import numpy as np
 
 from floquet import Monodromy, monodromy
-from floquet.witness import maker
+from floquet.witness import maker, rougher_maker
 from hill import Characteristic, Fourier, HillEquation, PeriodicEquation, characteristic
 from hill.stability import Verdict
 
 Method = Literal["taylor", "cvodes"]
+
+# On what the last refinement of the witness's elements moved P by: they gain two digits each time.
+SAFETY = 4.0
+
+# Over it is divided.
+SMALLEST = 1e-300
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,13 +32,18 @@ class CrossCheck:
     difference : float
         Largest difference between the coefficients of the two polynomials, P(z) or that of the
         multipliers.
-    matrices : float
-        Largest difference between the two routes' matrices, over their largest element.
+    discretisation : float
+        How far P may be off for the matrices, where the witness makes its own from finite elements:
+        an estimate, of its elements by what the last refinement moved P by, and of both routes'
+        rounding. 0 for other systems.
+    matrices : float or None
+        Largest difference between the two routes' matrices, over their largest element; None where
+        they are in different coordinates.
     shared_matrices : bool
         Whether both routes were given the same matrices, so that only the solution is checked.
     routes_agree : bool
-        Whether every coefficient's difference is within the sum of its two errors, and neither
-        route shows the opposite of what the other shows.
+        Whether every coefficient's difference is within the sum of its errors, and neither route
+        shows the opposite of what the other shows.
     verdict : {"stable", "unstable", "undecided"}
         What either route shows, where the other does not show the opposite.
     """
@@ -40,7 +51,8 @@ class CrossCheck:
     hill: Characteristic
     floquet: Monodromy
     difference: float
-    matrices: float
+    discretisation: float
+    matrices: float | None
     shared_matrices: bool
     routes_agree: bool
     verdict: Verdict
@@ -52,8 +64,8 @@ class CrossCheck:
 
     @property
     def bound(self) -> float:
-        """Sum of the two errors of P."""
-        return self.hill.error + self.floquet.error
+        """Sum of the two routes' errors of P, and of the discretisation's."""
+        return self.hill.error + self.floquet.error + self.discretisation
 
     @property
     def T(self) -> float:
@@ -103,41 +115,63 @@ def crosscheck(
         if value is None:
             raise ValueError(f"{name}: has no value; a system needs a forcing")
     own = what.equation(Omega, gamma, eta)
-    make = maker(what)
+    make, rougher = maker(what), rougher_maker(what)
     other = make(what, Omega, gamma, eta) if make else own
-    return compare_routes(own, other, method=method)
+    rough = rougher(what, Omega, gamma, eta) if rougher else None
+    return compare_routes(own, other, rough, method=method)
 
 
-def compare_routes(closed: Any, other: Any, *, method: Method = "taylor") -> CrossCheck:
-    """An equation by the determinant, and the same or the witness's own by the time domain."""
+def compare_routes(
+    closed: Any, other: Any, rougher: Any = None, *, method: Method = "taylor"
+) -> CrossCheck:
+    """An equation by the determinant, and the same or the witness's own by the time domain.
+
+    Where the witness's own comes from finite elements, `rougher` is from the elements before the
+    last refinement, its `data_error` what is left of them but rounding.
+    """
+    if isinstance(closed, HillEquation) != isinstance(other, HillEquation):
+        closed, other, rougher = (
+            e.general() if isinstance(e, HillEquation) else e for e in (closed, other, rougher)
+        )
     h, f = characteristic(closed), monodromy(other, method=method)
     apart = np.abs(h.polynomial - f.polynomial)
+    elements = np.zeros_like(apart)
+    if rougher is not None:
+        r = monodromy(rougher, method=method)
+        # of coefficients that move by chance in nothing, what the others say of them
+        moved, scale = np.abs(f.polynomial - r.polynomial), np.maximum(f.errors, SMALLEST)
+        elements = SAFETY * np.max(moved / scale) * scale + r.data_error + h.data_error
     shown = {h.verdict, f.verdict} - {"undecided"}
     return CrossCheck(
         hill=h,
         floquet=f,
         difference=float(np.max(apart)),
+        discretisation=float(np.max(elements)),
         matrices=0.0 if closed is other else _apart(closed, other),
         shared_matrices=closed is other,
-        routes_agree=bool(np.all(apart <= h.errors + f.errors)) and len(shown) < 2,
+        routes_agree=bool(np.all(apart <= h.errors + f.errors + elements)) and len(shown) < 2,
         verdict=shown.pop() if len(shown) == 1 else "undecided",
     )
 
 
-def _apart(one: Any, other: Any) -> float:
-    pairs = zip(_matrices(one), _matrices(other), strict=True)
+def _apart(one: Any, other: Any) -> float | None:
+    """Largest difference of two equations' matrices; None where coordinates may be different."""
+    if isinstance(one, HillEquation):
+        pairs = list(zip((one.F, one.G, *one.H), (other.F, other.G, *other.H), strict=True))
+    elif one.A is not None:
+        return None
+    else:
+        pairs = [*_pairs(one.K, other.K), *_pairs(one.C, other.C)]
     return max(
-        float(np.max(np.abs(a - b)) / max(np.max(np.abs(a)), np.max(np.abs(b)), 1e-300))
+        float(np.max(np.abs(a - b)) / max(np.max(np.abs(a)), np.max(np.abs(b)), SMALLEST))
         for a, b in pairs
     )
 
 
-def _matrices(equation: HillEquation | PeriodicEquation) -> list[Any]:
-    if isinstance(equation, HillEquation):
-        return [equation.F, equation.G, *equation.H]
-    parts = [x for x in (equation.K, equation.C, equation.A) if x is not None]
-    return [matrix for part in parts for matrix in _coefficients(part)]
-
-
-def _coefficients(matrix: Fourier) -> list[Any]:
-    return [matrix.mean, *matrix.cos.values(), *matrix.sin.values()]
+def _pairs(one: Fourier, other: Fourier) -> list[tuple[Any, Any]]:
+    """Coefficients by harmonic, 0 where there is none."""
+    none = np.zeros_like(one.mean)
+    waves = ((one.cos, other.cos), (one.sin, other.sin))
+    return [(one.mean, other.mean)] + [
+        (a.get(k, none), b.get(k, none)) for a, b in waves for k in {*a, *b}
+    ]

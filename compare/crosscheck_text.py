@@ -42,14 +42,15 @@ def summary(subject: Subject, x: CrossCheck) -> tuple[str, str]:
     doubles = f", doubling every {growth:.4g}" if growth else ""
     agree = "agree" if x.routes_agree else "DISAGREE"
     matrices = (
-        "both were given the same matrices"
-        if x.shared_matrices
-        else f"each has its own matrices, which differ by {x.matrices:.0e}"
+        "both were given the same matrices" if x.shared_matrices else "each has its own matrices"
     )
+    if x.matrices:
+        matrices += f", which differ by {x.matrices:.0e}"
+    of_it = f" ({x.discretisation:.1e} for the elements)" if x.discretisation else ""
     return (
         f"{subject.title}: {x.verdict.upper()}, {T}{doubles}.",
         f"The routes {agree}: P({_variable(x)}) differs by {x.difference:.1e}, their bounds allow "
-        f"{x.bound:.1e}; {matrices}.",
+        f"{x.bound:.1e}{of_it}; {matrices}.",
     )
 
 
@@ -86,6 +87,7 @@ def as_dict(subject: Subject, x: CrossCheck) -> dict[str, Any]:
         "floquet": _route(x.floquet) | {"multipliers": [_pair(m) for m in x.floquet.multipliers]},
         "difference": x.difference,
         "bound": x.bound,
+        "discretisation": x.discretisation,
         "matrices": x.matrices,
         "shared_matrices": x.shared_matrices,
         "routes_agree": x.routes_agree,
@@ -163,6 +165,8 @@ def _compared(x: CrossCheck) -> list[tuple[str, str, str]]:
             )
         )
     rows.append(("P known to", f"{h.error:.0e}", f"{f.error:.0e}"))
+    if x.discretisation:
+        rows.append(("and for the elements", "", f"{x.discretisation:.0e}"))
     for k, (one, other) in enumerate(zip(h.z, f.z, strict=True), start=1):
         rows.append((f"z_{k}", _complex(complex(one)), _complex(complex(other))))
     return rows

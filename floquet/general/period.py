@@ -118,7 +118,9 @@ def _families(run: _Run, found: Bounded, floor: float, *, decays: bool) -> list[
         by_matrix = discs_from_matrix(run.product, found.matrix_error)
         return [LogDiscs.of(by_matrix), LogDiscs.of(by_polynomial)]
     apart = np.abs(run.parts - run.check)
-    share = float(np.max(apart / run.parts_rounding))
+    # what is 0 to the last bit in both runs has no rounding either
+    none, some = np.zeros_like(apart), run.parts_rounding > 0.0
+    share = float(np.max(np.divide(apart, run.parts_rounding, out=none, where=some)))
     own = floor + ROUNDING_SAFETY * EPS * ULPS
     errors = SAFETY * np.maximum(apart, share * run.parts_rounding) + own * run.parts_rounding
     return [*periodic_discs(*merged(run.parts, errors)), LogDiscs.of(by_polynomial)]

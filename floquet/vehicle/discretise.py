@@ -45,7 +45,8 @@ class Discretised:
     best : HillEquation or PeriodicEquation
         In the vehicle's own units. Its `data_error` is an estimate of the discretisation's.
     rougher : HillEquation or PeriodicEquation
-        From elements of the order before: how far it is off bounds how far the other is.
+        From elements of the order before: how far it is off bounds how far the other is. Its
+        `data_error` is what the two have in common, the rounding of the vehicle's own numbers.
     """
 
     best: Equation
@@ -116,7 +117,7 @@ def discretise(
     error = min(SAFETY * best + ROUNDING, 1.0)
     return Discretised(
         assembled(vehicle, own, time, Omega, gamma, error),
-        assembled(vehicle, other, time, Omega, gamma, 1.0),
+        assembled(vehicle, other, time, Omega, gamma, ROUNDING),
     )
 
 

@@ -1,0 +1,1 @@
+"""Random vehicles by both routes, and a vehicle of many stations against the clock."""
