@@ -73,7 +73,7 @@ class Outcome:
     hill: Characteristic
     floquet: Monodromy
     difference: float
-    matrices: float
+    matrices: float | None
     routes_agree: bool
     cause: Cause
     expected: bool
