@@ -71,7 +71,7 @@ def test_both_routes_print_the_same(name: str, judged: dict[str, JudgedClaim]) -
 
 
 def test_page_is_up_to_date(judged: dict[str, JudgedClaim]) -> None:
-    assert page.page(judged.values()) == PAGE.read_text()
+    assert page.whole_page(judged.values()) == PAGE.read_text()
 
 
 def test_every_claim_has_one_check_and_every_check_its_claim() -> None:

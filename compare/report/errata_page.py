@@ -14,7 +14,7 @@ from scipy.optimize import linear_sum_assignment
 from compare.output import check_writable, write_whole
 from compare.publication import Erratum
 from compare.publications.kincaid import check
-from compare.report.errata import errata
+from compare.report.errata import all_errata
 from compare.report.match import distance
 from compare.report.row import Outcome
 from compare.report.tables import all_rows, corrected
@@ -90,7 +90,7 @@ def page(outcomes: Iterable[Outcome] | None = None) -> str:
     parts = [INTRODUCTION]
     for kind, (title, lead) in KINDS.items():
         parts += [f"## {title}"] + ([lead] if lead else [])
-        parts += [_entry(e, by_row) for e in errata() if e.kind == kind]
+        parts += [_entry(e, by_row) for e in all_errata() if e.kind == kind]
     parts += [VERDICTS, _flips(found), BACK, _misses(found)]
     return "\n\n".join(parts) + "\n"
 
@@ -161,7 +161,7 @@ def _flips(outcomes: Sequence[Outcome]) -> str:
 
 
 def _misses(outcomes: Sequence[Outcome]) -> str:
-    left_out = {e.row for e in errata() if e.kind == "open"}
+    left_out = {e.row for e in all_errata() if e.kind == "open"}
     rows = []
     for table in (1, 2, 3):
         of_table = [o for o in outcomes if o.row.table == table and o.row.id not in left_out]

@@ -1,4 +1,4 @@
-"""Holding printed numbers against computed ones."""
+"""How far computed numbers are from printed ones."""
 
 from collections.abc import Sequence
 from typing import Any

@@ -12,7 +12,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from compare.edges.field import PolynomialField as Family
+from compare.edges.field import PolynomialField
 from floquet import weak_form
 from floquet.unchecked import unchecked_growth, unchecked_polynomials
 from floquet.weak_form import galerkin
@@ -28,7 +28,7 @@ ROUTES: tuple[RouteName, RouteName] = ("hill", "floquet")
 
 
 @dataclass(frozen=True)
-class Batched(Family):
+class Batched(PolynomialField):
     """A family solved by one route, many equations at a time."""
 
     route: RouteName = "floquet"

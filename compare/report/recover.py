@@ -60,7 +60,7 @@ def candidates(deck: Program, case: Case, near: float) -> Iterator[tuple[float, 
 
 
 def recover(row: Row) -> tuple[float, str, float]:
-    """Omega as run, how it was found, and how far z as run stays from z as printed."""
+    """Omega as run, how it was found, and how far z as run is from z as printed."""
     deck, case = constants(row.run["beam"]), row.case
     near = float(row.Omega_printed)
 

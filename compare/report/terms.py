@@ -30,7 +30,7 @@ POWER = 5
 
 @dataclass(frozen=True)
 class MoreTerms:
-    """A row of Table 3 with more terms, and where they lead.
+    """A row of Table 3 with more terms, and in the limit of many.
 
     Attributes
     ----------

@@ -34,7 +34,7 @@ This page is generated: `python -m compare.report.claims.page`.
 PAGE = Path("docs/claims.md")
 
 
-def page(judged: Iterable[JudgedClaim] | None = None) -> str:
+def whole_page(judged: Iterable[JudgedClaim] | None = None) -> str:
     """The whole page."""
     found = tuple(judge() if judged is None else judged)
     return f"{HEADING}\n{markdown(found)}"
@@ -103,7 +103,7 @@ def as_dict(one: JudgedClaim) -> dict[str, Any]:
 def main() -> None:
     """Write docs/claims.md, from the root of a clone."""
     check_writable(PAGE)
-    write_whole(PAGE, page())
+    write_whole(PAGE, whole_page())
 
 
 if __name__ == "__main__":

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from compare.edges.field import PolynomialField as Family
+from compare.edges.field import PolynomialField
 from compare.report.figures.catalogue import GAMMA, Figure
 from compare.report.one_route import Beam, RouteName, family
 from compare.report.tables import Row, rows
@@ -24,7 +24,9 @@ def beam_of(figure: Figure, **changes: float) -> Beam:
     return SteppedBeam(**parameters) if figure.stepped else UniformBeam(**parameters)
 
 
-def family_of(figure: Figure, route: RouteName, eta: float = 0.0, g: float = 0.0) -> Family:
+def family_of(
+    figure: Figure, route: RouteName, eta: float = 0.0, g: float = 0.0
+) -> PolynomialField:
     """Its equations along T0 at the tables' gamma, or along gamma at their T0."""
     base = beam_of(figure, g=g) if g else beam_of(figure)
     if figure.along == "T0":
@@ -35,12 +37,12 @@ def family_of(figure: Figure, route: RouteName, eta: float = 0.0, g: float = 0.0
 def resonance_named(name: str) -> Resonance:
     """By its name in the tables, the two frequencies in either order."""
     for resonance in RESONANCES:
-        if same(resonance.name, name):
+        if same_resonance(resonance.name, name):
             return resonance
     raise ValueError(f"resonance = {name!r}: not among those of three frequencies")
 
 
-def same(one: str, other: str) -> bool:
+def same_resonance(one: str, other: str) -> bool:
     """Whether two names mean the same resonance."""
     return one == other or ("+" in one and one.split(" + ") == other.split(" + ")[::-1])
 
@@ -60,13 +62,13 @@ def nearest(Omega: float, resonances: dict[str, float]) -> str:
     return min(resonances, key=lambda name: abs(resonances[name] - Omega))
 
 
-def spread(count: int, detail: float, least: int = 5) -> int:
-    """How many points, at a share of the usual detail."""
+def point_count(count: int, detail: float, least: int = 5) -> int:
+    """The usual count of points at a share `detail` of it, or `least`."""
     return max(least, round(count * detail))
 
 
-def inner(count: int, marks: int) -> NDArray[np.intp]:
-    """Indices of some points of a curve, its ends apart; none of fewer than three."""
+def interior(count: int, marks: int) -> NDArray[np.intp]:
+    """Indices of so many marks along a curve, not at its ends; none where it has but two points."""
     if count < 3:
         return np.empty(0, int)
     return np.unique(np.linspace(0, count - 1, marks + 2).round().astype(int)[1:-1])

@@ -4,7 +4,14 @@ from functools import partial
 
 import numpy as np
 
-from compare.report.figures.beams import at_resonance, beam_of, inner, printed, same, spread
+from compare.report.figures.beams import (
+    at_resonance,
+    beam_of,
+    interior,
+    point_count,
+    printed,
+    same_resonance,
+)
 from compare.report.figures.catalogue import GAMMA, ORDER, Figure
 from compare.report.figures.data import FigureData, Float, Series, largest
 from compare.report.figures.sampling import adaptive
@@ -32,18 +39,18 @@ def of_longitudinal_frequency(figure: Figure, detail: float = 1.0) -> FigureData
             P = solve(route, [equation(route, b, Omega, GAMMA) for b in beams])
             return T_of(route, P, Omega)
 
-        count, far = spread(24, detail, 8), figure.span[1] / Omega - 1.0
+        count, far = point_count(24, detail, 8), figure.span[1] / Omega - 1.0
         below = Omega * (1.0 - np.geomspace(CLOSEST, 1.0 - START, count)[::-1])
         above = Omega * (1.0 + np.geomspace(CLOSEST, far, count))
         for start in (below, above):
             omega_L, y = adaptive(partial(T_x, "floquet"), start, HIGHEST)
             series.append(Series(name, "curve", "floquet", omega_L, y))
             shown = np.flatnonzero((y < HIGHEST) & (y > 0.0))
-            chosen = shown[inner(len(shown), 4)]
+            chosen = shown[interior(len(shown), 4)]
             marks = T_x("hill", omega_L[chosen]) if len(chosen) else omega_L[:0]
             series.append(Series(name, "mark", "hill", omega_L[chosen], marks))
             differences.append(marks - y[chosen])
-        own = [r for r in printed(figure) if same(_as_labelled(r.resonance), name)]
+        own = [r for r in printed(figure) if same_resonance(_as_labelled(r.resonance), name)]
         x = np.array([r.omega_L for r in own])
         y = np.array([r.T for r in own])
         series.append(Series(name, "printed", f"Table {figure.table}", x, y))
@@ -61,13 +68,13 @@ def integral(figure: Figure, detail: float = 1.0) -> FigureData:
     differences = []
     for g in figure.values:
         # tan(z/2)/z has its poles at odd multiples of pi: resonance at sigma = 2 leaves no trace
-        steps = np.geomspace(1e-3, 0.999, spread(60, detail, 8))
+        steps = np.geomspace(1e-3, 0.999, point_count(60, detail, 8))
         sides = [1.0 - steps[::-1], 1.0 + steps]
         pieces = sides if g == 0.0 else [np.concatenate([sides[0], [1.0], sides[1]])]
         for sigma in pieces:
             y = _phi(figure, "hill", sigma, g)
             series.append(Series(f"g = {g:g}", "curve", "hill", sigma, y))
-            chosen = inner(len(sigma), 9)
+            chosen = interior(len(sigma), 9)
             marks = _phi(figure, "floquet", sigma[chosen], g)
             series.append(Series(f"g = {g:g}", "mark", "floquet", sigma[chosen], marks))
             differences.append(marks - y[chosen])

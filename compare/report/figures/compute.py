@@ -4,22 +4,22 @@ from collections.abc import Callable
 
 from compare.report.figures.catalogue import FIGURES, Figure
 from compare.report.figures.compliance import integral, of_longitudinal_frequency
-from compare.report.figures.coupled import coupled
-from compare.report.figures.critical import critical
+from compare.report.figures.coupled import coupled_regions
+from compare.report.figures.critical import critical_values
 from compare.report.figures.data import FigureData
-from compare.report.figures.frequencies import frequencies
+from compare.report.figures.frequencies import steady_frequencies
 from compare.report.figures.growth import near_longitudinal_resonance, near_resonances
-from compare.report.figures.regions import regions
+from compare.report.figures.regions import instability_regions
 
 KINDS: dict[str, Callable[[Figure, float], FigureData]] = {
-    "frequencies": frequencies,
+    "frequencies": steady_frequencies,
     "growth": near_resonances,
-    "regions": regions,
-    "critical": critical,
+    "regions": instability_regions,
+    "critical": critical_values,
     "compliance": of_longitudinal_frequency,
     "integral": integral,
     "resonant": near_longitudinal_resonance,
-    "coupled": coupled,
+    "coupled": coupled_regions,
 }
 
 # A damped figure starts from its undamped one: computed together, that is done once.

@@ -6,10 +6,16 @@ import numpy as np
 
 from compare.edges.tongue import Tongue
 from compare.edges.tracer import follow
-from compare.report.figures.beams import RESONANCES, beam_of, family_of, spread
+from compare.report.figures.beams import RESONANCES, beam_of, family_of, point_count
 from compare.report.figures.catalogue import GAMMA, Figure
 from compare.report.figures.data import FigureData, Float, Series, largest
-from compare.report.figures.regions import edge, expected, marks, parameters, to_zero
+from compare.report.figures.regions import (
+    ended_at_zero,
+    expects_width,
+    marks,
+    nearest_zero,
+    section_parameters,
+)
 from compare.report.one_route import RouteName, equation, solve
 from compare.stability.indicators import crossings, indicator, zero
 from hill.averaging import Resonance
@@ -47,22 +53,22 @@ def windows(omega_L: float) -> tuple[Window, ...]:
     )
 
 
-def coupled(figure: Figure, detail: float = 1.0) -> FigureData:
+def coupled_regions(figure: Figure, detail: float = 1.0) -> FigureData:
     """Curves from the monodromy matrix, marks from Hill's determinant."""
     series: list[Series] = []
     differences = []
-    count = spread(16, detail, 6)
+    count = point_count(16, detail, 6)
     # closer at small thrust, where the regions open
     ys = [figure.span[1] * (k / count) ** 1.5 for k in range(1, count + 1)]
     for g in figure.values:
         for resonance in RESONANCES:
-            if (resonance.i, resonance.j) == (1, 1) or not expected(figure, resonance):
+            if (resonance.i, resonance.j) == (1, 1) or not expects_width(figure, resonance):
                 continue
             # slow where the forcing is
             share, near = (0.3, (0.08, 0.35)) if resonance == SLOW else (0.7, (0.08, 0.35, 0.65))
-            T0s = parameters(figure, resonance, share * detail, near)
+            T0s = section_parameters(figure, resonance, share * detail, near)
             for tongue in follow(family_of(figure, "floquet", g=g), resonance, T0s):
-                piece = to_zero(figure, tongue)
+                piece = ended_at_zero(figure, tongue)
                 y, lower, upper, difference = marks(figure, tongue, g, 2)
                 series += _both(g, resonance.name, piece, np.append(y, y), np.append(lower, upper))
                 differences.append(difference)
@@ -156,7 +162,7 @@ def towards_pole(figure: Figure, window: Window, start: float, T0: float) -> flo
 def inside(
     figure: Figure, window: Window, route: RouteName, g: float, T0: float, Omega: Float
 ) -> Float:
-    """Negative where unstable."""
+    """The window's indicator at many Omega by one route: negative where unstable."""
     beam = beam_of(figure, T0=T0, g=g)
     P = solve(route, [equation(route, beam, float(x), GAMMA) for x in Omega])
     return indicator(window.kind, P, Omega)
@@ -173,7 +179,7 @@ def _marks(figure: Figure, window: Window, g: float, piece: Piece) -> tuple[Floa
 
         for e in (float(piece.lower[i]), float(piece.upper[i])):
             if e != window.pole:
-                solved = edge(f, e, width)
+                solved = nearest_zero(f, e, width)
                 found.append((float(piece.y[i]), solved, solved - e))
     y, edges, differences = np.array(found).T
     return y, edges, differences

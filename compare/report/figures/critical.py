@@ -4,7 +4,14 @@ from collections.abc import Callable
 
 import numpy as np
 
-from compare.report.figures.beams import at_resonance, beam_of, inner, printed, same, spread
+from compare.report.figures.beams import (
+    at_resonance,
+    beam_of,
+    interior,
+    point_count,
+    printed,
+    same_resonance,
+)
 from compare.report.figures.catalogue import GAMMA, Figure
 from compare.report.figures.data import FigureData, Float, Series, largest
 from compare.report.figures.regions import FINEST
@@ -20,24 +27,24 @@ LEAST_T0 = 0.25
 HALVINGS = 5
 
 
-def critical(figure: Figure, detail: float = 1.0) -> FigureData:
+def critical_values(figure: Figure, detail: float = 1.0) -> FigureData:
     """Curves from the monodromy matrix, marks from Hill's determinant."""
     gamma_end = figure.span[1]
     series: list[Series] = []
     differences = []
-    gammas = np.linspace(0.0, gamma_end, spread(121, detail))
+    gammas = np.linspace(0.0, gamma_end, point_count(121, detail))
     for T0 in figure.values:
         Omega = _resonance(figure, T0)
         P = interpolate(_along_gamma("floquet", figure, T0, Omega), 0.0, gamma_end)
         T = T_of("floquet", P(gammas), Omega)
-        chosen = inner(len(gammas), 4)
+        chosen = interior(len(gammas), 4)
         at_marks = _along_gamma("hill", figure, T0, Omega)(gammas[chosen])
         marks = T_of("hill", at_marks, Omega)
         name = f"T0 = {T0:g}"
         series.append(Series(name, "curve", "floquet", gammas, T, panel=TOP))
         series.append(Series(name, "mark", "hill", gammas[chosen], marks, panel=TOP))
         differences.append(marks - T[chosen])
-    T_printed = [r.T for r in printed(figure) if same(r.resonance, figure.resonance)]
+    T_printed = [r.T for r in printed(figure) if same_resonance(r.resonance, figure.resonance)]
     source = f"Table {figure.table}"
     x, y = np.full(len(T_printed), GAMMA), np.array(T_printed)
     series.append(Series("T0 = 20", "printed", source, x, y, panel=TOP))
@@ -65,7 +72,7 @@ def _envelope(figure: Figure, detail: float) -> list[Series]:
     """For every thrust the smallest gamma that is unstable with damping; T0 is the x here."""
     highest, end = 24.0 if figure.stepped else 25.0, figure.span[1]
     # what crosses 2 omega_(B) makes its envelope intricate
-    count = spread(121 if figure.resonance == "2 omega_(B)" else 49, detail, 9)
+    count = point_count(121 if figure.resonance == "2 omega_(B)" else 49, detail, 9)
     found: dict[float, float | None] = {}
     before = LEAST_T0
     for T0 in map(float, np.linspace(LEAST_T0, highest, count)):
@@ -83,14 +90,14 @@ def _envelope(figure: Figure, detail: float) -> list[Series]:
         if len(piece) > 1 and inside[piece[0]]:
             x, y = T0s[piece], gammas[piece]
             series.append(Series(name, "curve", "floquet", x, y, panel=BOTTOM))
-            chosen = inner(len(piece), 5 if x[-1] - x[0] > 4.0 else 1)
+            chosen = interior(len(piece), 5 if x[-1] - x[0] > 4.0 else 1)
             marks = np.array([_by_hill(figure, x[i], y[i]) for i in chosen])
             series.append(Series(name, "mark", "hill", x[chosen], marks, panel=BOTTOM))
     return series
 
 
 def _closing(figure: Figure, absent: float, present: float) -> dict[float, float | None]:
-    """The same towards the thrust at which there is one no more, by halving."""
+    """Smallest unstable gammas at thrusts halved towards that beyond which there is none."""
     found: dict[float, float | None] = {}
     for _ in range(HALVINGS):
         middle = 0.5 * (absent + present)
@@ -122,6 +129,6 @@ def _smallest(figure: Figure, T0: float) -> float | None:
 
 
 def _by_hill(figure: Figure, T0: float, gamma: float) -> float:
-    """The same by the other route, from a bracket about it."""
+    """The smallest unstable gamma by the determinant, from a bracket about the known one."""
     T = _damped(figure, T0, "hill")
     return zero(T, 0.99 * gamma, 1.01 * gamma, rtol=FINEST)

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from compare.report.figures.beams import beam_of, inner, spread
+from compare.report.figures.beams import beam_of, interior, point_count
 from compare.report.figures.catalogue import Figure
 from compare.report.figures.data import FigureData, Float, Series, largest
 from compare.report.one_route import Beam, RouteName
@@ -19,7 +19,7 @@ PRINTED = {
 """What the text reads off the figures: two critical thrusts, and omega_(1) of Example 2."""
 
 
-def frequencies(figure: Figure, detail: float = 1.0) -> FigureData:
+def steady_frequencies(figure: Figure, detail: float = 1.0) -> FigureData:
     """Curves from the closed form, marks from Galerkin's quadrature."""
     series: list[Series] = []
     differences = []
@@ -30,11 +30,11 @@ def frequencies(figure: Figure, detail: float = 1.0) -> FigureData:
             return beam_of(figure, **(changed | {"T0": T0}))
 
         end, event = loss(at, figure.span[1])
-        count = spread(80, detail)
+        count = point_count(80, detail)
         # frequencies start and end like square roots
         T0 = 0.5 * end * (1.0 - np.cos(np.pi * np.arange(count) / (count - 0.5)))
         curves = np.array([real_part("hill", at(t)) for t in T0]).T
-        chosen = inner(count, 6)
+        chosen = interior(count, 6)
         other = np.array([real_part("floquet", at(T0[i])) for i in chosen]).T
         label = f"{figure.along} = {value:g}"
         for name, y, mark in zip(NAMES, curves, other, strict=True):

@@ -8,11 +8,11 @@ import numpy as np
 from compare.report.figures.beams import (
     at_resonance,
     beam_of,
-    inner,
+    interior,
     nearest,
+    point_count,
     printed,
     resonance_named,
-    spread,
 )
 from compare.report.figures.catalogue import GAMMA, ORDER, Figure
 from compare.report.figures.data import FigureData, Float, Series, largest
@@ -53,7 +53,7 @@ def near_resonances(figure: Figure, detail: float = 1.0) -> FigureData:
             series.append(Series(name, "curve", "hill", x, y, panel=name, damped=eta > 0.0))
             if eta == 0.0:
                 unstable = np.flatnonzero(y > NOTHING)
-                chosen = unstable[inner(len(unstable), 7)]
+                chosen = unstable[interior(len(unstable), 7)]
                 other = [equation("floquet", beam, float(v), GAMMA) for v in x[chosen]]
                 T = T_of("floquet", solve("floquet", other), x[chosen])
                 series.append(Series(name, "mark", "floquet", x[chosen], T, panel=name))
@@ -84,7 +84,7 @@ def stations(T: Function, lo: float, hi: float, detail: float) -> Float:
     ends = sorted({lo, hi, *falls, *rises})
     points = [lo]
     for a, b in pairwise(ends):
-        count = spread(60, detail) if T(np.array([0.5 * (a + b)]))[0] > NOTHING else 4
+        count = point_count(60, detail) if T(np.array([0.5 * (a + b)]))[0] > NOTHING else 4
         points.extend(0.5 * (a + b - (b - a) * np.cos(np.pi * np.arange(1, count + 1) / count)))
     return np.array(points)
 
@@ -104,7 +104,7 @@ def near_longitudinal_resonance(figure: Figure, detail: float = 1.0) -> FigureDa
             x, y = adaptive(partial(T, "floquet"), part, HIGHEST)
             series.append(Series(f"g = {g:g}", "curve", "floquet", x, y))
             shown = np.flatnonzero((y > NOTHING) & (y < HIGHEST))
-            chosen = shown[inner(len(shown), 6)]
+            chosen = shown[interior(len(shown), 6)]
             marks = T("hill", x[chosen]) if len(chosen) else x[:0]
             series.append(Series(f"g = {g:g}", "mark", "hill", x[chosen], marks))
             differences.append(marks - y[chosen])
@@ -114,7 +114,7 @@ def near_longitudinal_resonance(figure: Figure, detail: float = 1.0) -> FigureDa
 def _sides(figure: Figure, g: float, detail: float) -> list[Float]:
     """Points to start from on both sides of the resonance; not at it where G has a pole there."""
     (lo, hi), pole = figure.span, figure.omega_L
-    steps = np.geomspace(CLOSEST, 1.0, spread(24, detail, 9))
+    steps = np.geomspace(CLOSEST, 1.0, point_count(24, detail, 9))
     below, above = (pole + (end - pole) * steps for end in (lo, hi))
     if g == 0.0:
         return [below[::-1], above]

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from compare.edges.tongue import Tongue
 from compare.edges.tracer import TongueTracer as Cutter
 from compare.edges.tracer import follow
-from compare.report.figures.beams import RESONANCES, THIRD, family_of, printed, spread
+from compare.report.figures.beams import RESONANCES, THIRD, family_of, point_count, printed
 from compare.report.figures.catalogue import FIGURES, Figure
 from compare.report.figures.data import FigureData, Float, Series, largest
 from compare.report.tables import number
@@ -25,7 +25,7 @@ MARKS = 3
 FINEST = 4.0 * float(np.finfo(float).eps)
 
 
-def regions(figure: Figure, detail: float = 1.0) -> FigureData:
+def instability_regions(figure: Figure, detail: float = 1.0) -> FigureData:
     """Curves from the monodromy matrix, marks from Hill's determinant."""
     found = tongues(_undamped(figure), detail)
     shown = tongues(figure.number, detail) if figure.eta else found
@@ -33,7 +33,7 @@ def regions(figure: Figure, detail: float = 1.0) -> FigureData:
     series += [as_series(tongue, tongue.resonance.name) for tongue in shown]
     differences = []
     for tongue in shown:
-        y, lower, upper, difference = marks(figure, tongue, count=spread(MARKS, detail, 1))
+        y, lower, upper, difference = marks(figure, tongue, count=point_count(MARKS, detail, 1))
         name = tongue.resonance.name
         series.append(Series(name, "mark", "hill", y, lower, upper, panel=name))
         differences.append(difference)
@@ -70,12 +70,12 @@ def tongues(number: int, detail: float) -> tuple[Tongue, ...]:
         if resonance == THIRD and not figure.stepped:
             continue
         own = [t for t in within if t.resonance == resonance]
-        if (own or not figure.eta) and expected(figure, resonance):
-            found += follow(family, resonance, parameters(figure, resonance, detail), own)
-    return tuple(found if figure.eta else [to_zero(figure, tongue) for tongue in found])
+        if (own or not figure.eta) and expects_width(figure, resonance):
+            found += follow(family, resonance, section_parameters(figure, resonance, detail), own)
+    return tuple(found if figure.eta else [ended_at_zero(figure, tongue) for tongue in found])
 
 
-def parameters(
+def section_parameters(
     figure: Figure,
     resonance: Resonance,
     detail: float,
@@ -84,7 +84,7 @@ def parameters(
     """Values of T0 or gamma, closer where the tongue turns; `near` zero, in steps of them."""
     lo, hi = figure.span
     bent = resonance in (RESONANCES[0], THIRD)
-    count = spread(49 if bent else 25, detail, 9)
+    count = point_count(49 if bent else 25, detail, 9)
     even = np.linspace(lo, hi, count + 1)[1:]
     # the frequency of rotation starts like the square root of T0
     rotates = resonance.j == 0 and figure.along == "T0"
@@ -92,7 +92,7 @@ def parameters(
     return [float(v) for v in (*near_zero, *even)]
 
 
-def expected(figure: Figure, resonance: Resonance) -> bool:
+def expects_width(figure: Figure, resonance: Resonance) -> bool:
     """Whether first-order theory gives a width, anywhere; the third order it does not describe."""
     family = family_of(figure, "hill")
     if resonance == THIRD:
@@ -105,8 +105,8 @@ def expected(figure: Figure, resonance: Resonance) -> bool:
     return max(widths, default=0.0) > NEGLIGIBLE_WIDTH
 
 
-def to_zero(figure: Figure, tongue: Tongue) -> Tongue:
-    """Without thrust or pulsation there is no instability: the tongue ends on its resonance."""
+def ended_at_zero(figure: Figure, tongue: Tongue) -> Tongue:
+    """The tongue continued to zero thrust or pulsation, where it closes on its resonance."""
     step = figure.span[1] / 8.0
     if tongue.y[0] > step:
         return tongue
@@ -127,7 +127,7 @@ def marks(
     family = family_of(figure, "hill", figure.eta, g)
     wide = np.flatnonzero(tongue.upper - tongue.lower > 1e-4 * tongue.upper)
     short = tongue.y[-1] - tongue.y[0] < 0.25 * (figure.span[1] - figure.span[0])
-    chosen = evenly(wide, tongue.y, 1 if short else count)
+    chosen = evenly_spaced(wide, tongue.y, 1 if short else count)
     kind = tongue.resonance.indicator
     solved: list[list[float]] = []
     for i in chosen:
@@ -136,13 +136,13 @@ def marks(
         def f(Omega: Float, y: float = y) -> Float:
             return indicator(kind, family.along(Omega, y), Omega, figure.eta)
 
-        solved.append([edge(f, float(e[i]), width) for e in (tongue.lower, tongue.upper)])
+        solved.append([nearest_zero(f, float(e[i]), width) for e in (tongue.lower, tongue.upper)])
     edges = np.array(solved).reshape(-1, 2).T
     difference = edges - np.array([tongue.lower[chosen], tongue.upper[chosen]])
     return tongue.y[chosen], edges[0], edges[1], difference
 
 
-def evenly(indices: NDArray[np.intp], y: Float, count: int) -> NDArray[np.intp]:
+def evenly_spaced(indices: NDArray[np.intp], y: Float, count: int) -> NDArray[np.intp]:
     """Some of these points at about equal distances in y."""
     if not len(indices):
         return indices
@@ -151,8 +151,8 @@ def evenly(indices: NDArray[np.intp], y: Float, count: int) -> NDArray[np.intp]:
     return np.unique([indices[np.abs(y[indices] - t).argmin()] for t in targets])
 
 
-def edge(f: Function, near: float, width: float) -> float:
-    """The zero nearest by.
+def nearest_zero(f: Function, near: float, width: float) -> float:
+    """The zero of f nearest to a known edge, in ever wider brackets about it.
 
     Raises
     ------
