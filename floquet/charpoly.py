@@ -8,7 +8,7 @@ import numpy as np
 from floquet.arrays import EPS, Float
 
 MAX_MINORS = 3
-"""Up to this size the minors are written out; `floquet/batch/kernel.c` has the same."""
+"""Up to this size the minors are written out, here and in `floquet/batch/kernel.c`."""
 
 
 MAX_EXACT = 12

@@ -120,15 +120,15 @@ def test_auto_depends_on_the_count_only(monkeypatch: pytest.MonkeyPatch) -> None
 @needs_compiler
 def test_a_compiler_is_never_required(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
-    c_kernel._KNOWN.clear()
+    c_kernel.forget()
     assert c_kernel.march(2, 1) is not None
     (built,) = (tmp_path / "floquet-crosscheck").glob("*.so")
-    c_kernel._KNOWN.clear()
+    c_kernel.forget()
     assert c_kernel.march(2, 1) is not None
     assert [built] == list((tmp_path / "floquet-crosscheck").glob("*.so"))
 
     def refused(*, CC: str | None, folder: Path) -> None:
-        c_kernel._KNOWN.clear()
+        c_kernel.forget()
         monkeypatch.setenv("XDG_CACHE_HOME", str(folder))
         if CC is None:
             monkeypatch.setattr(c_kernel.shutil, "which", lambda _: None)
@@ -142,7 +142,7 @@ def test_a_compiler_is_never_required(monkeypatch: pytest.MonkeyPatch, tmp_path:
     blocked = tmp_path / "a file"
     blocked.write_text("")
     monkeypatch.setenv("XDG_CACHE_HOME", str(blocked))  # nowhere to keep it: built all the same
-    c_kernel._KNOWN.clear()
+    c_kernel.forget()
     assert c_kernel.march(2, 1) is not None
     failing = tmp_path / "cc"
     failing.write_text('#!/bin/sh\n[ "$1" = --version ]\n')
@@ -150,7 +150,7 @@ def test_a_compiler_is_never_required(monkeypatch: pytest.MonkeyPatch, tmp_path:
     refused(CC=str(failing), folder=tmp_path / "other")
     assert not list((tmp_path / "other" / "floquet-crosscheck").iterdir())
     refused(CC=None, folder=tmp_path)
-    c_kernel._KNOWN.clear()
+    c_kernel.forget()
 
 
 def test_growth_bound_is_one() -> None:

@@ -1,20 +1,24 @@
 """The compiled march is the user's own, is what was built, and costs nothing but speed."""
 
+import ctypes
 import os
 import shutil
 import signal
 import stat
+import subprocess
 import time
 from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import replace
+from importlib.resources import files
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from floquet.batch import c_kernel
-from floquet.batch.numpy_kernel import Found, Points, by_numpy
+from floquet.batch.numpy_kernel import ORDER, TOLERANCE, Found, Points, by_numpy
+from floquet.integrate.step_length import RADII, fastest_rate, longest_step
 
 pytestmark = pytest.mark.skipif(
     c_kernel.compiler() is None or os.name != "posix", reason="no C compiler here, or no POSIX"
@@ -24,9 +28,9 @@ pytestmark = pytest.mark.skipif(
 @pytest.fixture(autouse=True)
 def own_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
-    c_kernel._KNOWN.clear()
+    c_kernel.forget()
     yield tmp_path / "cache" / "floquet-crosscheck"
-    c_kernel._KNOWN.clear()
+    c_kernel.forget()
 
 
 def library(folder: Path) -> Path:
@@ -54,7 +58,7 @@ def test_it_is_kept_and_belongs_to_the_user(own_cache: Path) -> None:
     assert works()
     assert stat.S_IMODE(own_cache.stat().st_mode) == 0o700
     first = library(own_cache).stat().st_mtime_ns
-    c_kernel._KNOWN.clear()
+    c_kernel.forget()
     assert works()
     assert library(own_cache).stat().st_mtime_ns == first
 
@@ -67,7 +71,7 @@ def test_a_spoilt_library_is_built_again(own_cache: Path, content: bytes | None)
     other = path.with_suffix(".other")
     other.write_bytes(path.read_bytes()[:4000] if content is None else content)
     other.replace(path)
-    c_kernel._KNOWN.clear()
+    c_kernel.forget()
     assert works()
     assert path.stat().st_size > 8000
 
@@ -80,7 +84,7 @@ def test_a_spoilt_digest_is_written_again(own_cache: Path, content: bytes | None
     path.unlink()
     if content is not None:
         path.write_bytes(content)
-    c_kernel._KNOWN.clear()
+    c_kernel.forget()
     assert works()
     assert path.read_bytes() == good
 
@@ -93,7 +97,7 @@ def test_nobody_else_may_write_whatever_the_umask(own_cache: Path) -> None:
         os.umask(before)
     first = library(own_cache).stat().st_mtime_ns
     assert [p.name for p in own_cache.iterdir() if p.stat().st_mode & 0o022] == []
-    c_kernel._KNOWN.clear()
+    c_kernel.forget()
     assert works()
     assert library(own_cache).stat().st_mtime_ns == first
 
@@ -103,7 +107,7 @@ def test_what_others_could_write_to_is_built_again(own_cache: Path, suffix: str)
     assert works()
     path = library(own_cache).with_suffix(suffix)
     path.chmod(0o666)
-    c_kernel._KNOWN.clear()
+    c_kernel.forget()
     assert works()
     assert not path.stat().st_mode & 0o022
 
@@ -137,7 +141,7 @@ def test_a_planted_library_is_not_loaded(own_cache: Path, tmp_path: Path) -> Non
         f'{{ fclose(fopen("{told}", "w")); }}\nint march(void) {{ return 0; }}\n'
     )
     os.system(f"{c_kernel.compiler()} -shared -fPIC -o {path} {source}")
-    c_kernel._KNOWN.clear()
+    c_kernel.forget()
     assert works()
     assert not told.exists()
 
@@ -225,6 +229,60 @@ def test_a_mended_compiler_is_asked_again(tmp_path: Path, monkeypatch: pytest.Mo
     fake(tmp_path, monkeypatch, f'exec {real} "$@"')
     os.utime(tmp_path / "fakecc", ns=(1, 1))
     assert works()
+
+
+def test_a_failure_is_not_believed_for_ever(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The same compiler, untouched: its disk was full, and is no longer."""
+    real, full, asked = c_kernel.compiler(), tmp_path / "full", tmp_path / "asked"
+    fake(tmp_path, monkeypatch, f'echo x >> {asked}; [ -e {full} ] && exit 1; exec {real} "$@"')
+    full.touch()
+    assert c_kernel.march(2, 1) is None
+    times = len(asked.read_text())
+    assert c_kernel.march(2, 1) is None
+    full.unlink()
+    assert c_kernel.march(2, 1) is None
+    assert len(asked.read_text()) == times  # not asked again at once
+    monkeypatch.setattr(c_kernel, "RETRY_AFTER", 0.0)
+    assert works()
+
+
+@pytest.mark.parametrize("n", [1, 2, 5])
+def test_steps_are_as_long_in_c_as_in_python(n: int, tmp_path: Path) -> None:
+    """The rule is written twice; in C the Perron root is a bound, so that no step is longer."""
+    source = files("floquet").joinpath("batch", "kernel.c").read_text()
+    source += (
+        "\ndouble step(const double *worst, const int *phases, const double *radii,"
+        " double tolerance, double *rate)"
+        "\n{ return longest_step(worst, phases, radii, tolerance, rate); }\n"
+    )
+    (tmp_path / "step.c").write_text(source)
+    options = [f"-D{name}={value}" for name, value in c_kernel.defines(n, 2).items()]
+    words = [str(c_kernel.compiler()), *options, "-O1", "-shared", "-fPIC", "-o"]
+    words += [str(tmp_path / "step.so"), str(tmp_path / "step.c"), "-lm"]
+    subprocess.run(words, check=True, capture_output=True)
+    step = ctypes.CDLL(str(tmp_path / "step.so")).step
+    step.restype = ctypes.c_double
+    rng = np.random.default_rng(n)
+    for frequencies in ((1, 1), (1, 2), (3, 7)):
+        worst = np.abs(rng.standard_normal((3, n, n))) * 10.0 ** rng.uniform(-1, 2)
+        rate = ctypes.c_double()
+        found = step(
+            worst.ctypes.data_as(ctypes.c_void_p),
+            (ctypes.c_int * 2)(*frequencies),
+            RADII.ctypes.data_as(ctypes.c_void_p),
+            ctypes.c_double(TOLERANCE),
+            ctypes.byref(rate),
+        )
+        terms = list(zip(worst, (0.0, *map(float, frequencies)), strict=True))
+        nothing = np.zeros((n, n))
+        expected = longest_step(terms, nothing, ORDER, TOLERANCE)
+        # with one coordinate the root is the element; of five the bound is 1.1 times the root
+        shortest = 1.0 - (1e-13 if n == 1 else 0.06)
+        assert shortest * expected <= found <= (1.0 + 1e-13) * expected
+        fastest = fastest_rate(terms, nothing)
+        assert fastest * (1.0 - 1e-13) <= rate.value <= fastest * (2.0 - shortest)
 
 
 @pytest.mark.parametrize("stage", ["VERSION_TIMEOUT", "BUILD_TIMEOUT"])

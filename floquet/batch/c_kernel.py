@@ -2,12 +2,14 @@
 
 import ctypes
 import hashlib
+import math
 import os
 import shutil
 import signal
 import stat
 import subprocess
 import tempfile
+import time
 from collections.abc import Callable
 from contextlib import suppress
 from functools import cache
@@ -17,9 +19,18 @@ from typing import Any
 
 import numpy as np
 
-from floquet.batch.numpy_kernel import ORDER, POWERS, TOLERANCE, Found, March, Points, by_numpy
+from floquet.batch.numpy_kernel import (
+    ORDER,
+    POWERS,
+    TINY,
+    TOLERANCE,
+    Found,
+    March,
+    Points,
+    by_numpy,
+)
 from floquet.charpoly import MAX_MINORS, characteristic_polynomials
-from floquet.integrate.step_length import MAX_EXPONENT, RADII
+from floquet.integrate.step_length import MAX_EXPONENT, RADII, RADII_ORDER
 from floquet.integrate.taylor import MAX_STEPS
 
 COMPILERS = ("cc", "gcc", "clang")
@@ -30,8 +41,9 @@ MAX_SUMS = 16
 
 # Bytes of the nearest cache that the coefficients of some columns may fill; 32 to 48 kB is usual.
 NEAREST_CACHE = 40_000
-BYTES = 8 * 8
-"""Of one number for eight points side by side."""
+
+MAX_LANES = 8
+"""Points side by side, in the widest vectors that `kernel.c` knows."""
 
 # Seconds: a compiler says its version in a few hundredths, and builds 40 coordinates in ten.
 VERSION_TIMEOUT, BUILD_TIMEOUT = 5.0, 60.0
@@ -44,7 +56,11 @@ TRIAL_ERROR_TOLERANCE = 0.1
 
 # Builds kept in mind; each is some kilobytes.
 MAX_KNOWN = 64
-_KNOWN: dict[tuple[str, int, int, int], March | None] = {}
+_KNOWN: dict[tuple[str, int, int, int], March] = {}
+
+# Seconds for which a build that failed is not tried again: it may have been a full disk.
+RETRY_AFTER = 600.0
+_FAILED: dict[tuple[str, int, int, int], float] = {}
 
 # The numbers of a point sit on the compiler's stack, 3 (2n)^2 of them.
 MAX_COORDINATES = 40
@@ -61,20 +77,33 @@ def march(n: int, terms: int) -> March | None:
 
     Built once and kept in the user's cache directory (``$XDG_CACHE_HOME`` or ``~/.cache``), under
     a name made of source, compiler and options; where that cannot be written, or is not the user's
-    alone, for this process. A compiler that fails is asked again when it has changed.
+    alone, for this process. A compiler that fails is asked again when it has changed, and after
+    `RETRY_AFTER`.
     """
     command = compiler()
     if command is None or n > MAX_COORDINATES:
         return None
     identity = (command, os.stat(command).st_mtime_ns, n, terms)
-    if identity not in _KNOWN:
-        if len(_KNOWN) >= MAX_KNOWN:
-            _KNOWN.clear()
-        try:
-            _KNOWN[identity] = _tried(_wrapped(_loaded(_built(command, n, terms))), n, terms)
-        except (OSError, subprocess.SubprocessError, AttributeError, ValueError, MemoryError):
-            _KNOWN[identity] = None
-    return _KNOWN[identity]
+    if identity in _KNOWN:
+        return _KNOWN[identity]
+    if time.monotonic() < _FAILED.get(identity, -math.inf) + RETRY_AFTER:
+        return None
+    for kept in (_KNOWN, _FAILED):
+        if len(kept) >= MAX_KNOWN:
+            kept.clear()
+    try:
+        found = _tried(_wrapped(_loaded(_built(command, n, terms))), n, terms)
+    except (OSError, subprocess.SubprocessError, AttributeError, ValueError, MemoryError):
+        _FAILED[identity] = time.monotonic()
+        return None
+    _KNOWN[identity] = found
+    return found
+
+
+def forget() -> None:
+    """Keep nothing of what was built or failed in mind: the next `march` looks for it again."""
+    _KNOWN.clear()
+    _FAILED.clear()
 
 
 def _tried(found: March, n: int, terms: int) -> March:
@@ -125,11 +154,7 @@ def _digest(library: Path) -> bytes:
 
 def _built(command: str, n: int, terms: int) -> Path:
     source = files("floquet").joinpath("batch", "kernel.c").read_bytes()
-    columns, block = _blocks(n)
-    sizes = {"N": n, "TERMS": terms, "ORDER": ORDER, "POWERS": POWERS}
-    sizes |= {"COLUMNS": columns, "BLOCK": block}
-    sizes |= {"RADII": len(RADII), "MAX_EXPONENT": int(MAX_EXPONENT)}
-    options = [f"-D{name}={value}" for name, value in sizes.items()]
+    options = [f"-D{name}={value}" for name, value in defines(n, terms).items()]
     version = _run([command, "--version"], b"", VERSION_TIMEOUT)
     key = hashlib.sha256(repr((source, command, version, options, FLAGS, _cpu())).encode())
     folder = _folder()
@@ -181,9 +206,28 @@ def _run(words: list[str], given: bytes, seconds: float) -> bytes:
     return printed
 
 
+def defines(n: int, terms: int) -> dict[str, float]:
+    """Every number that `kernel.c` shares with Python, under the names it has there."""
+    columns, block = _blocks(n)
+    return {
+        "N": n,
+        "TERMS": terms,
+        "ORDER": ORDER,
+        "POWERS": POWERS,
+        "TINY": TINY,
+        "COLUMNS": columns,
+        "BLOCK": block,
+        "MAX_LANES": MAX_LANES,
+        "MAX_MINORS": MAX_MINORS,
+        "RADII": len(RADII),
+        "RADII_ORDER": RADII_ORDER,
+        "MAX_EXPONENT": MAX_EXPONENT,
+    }
+
+
 def _blocks(n: int) -> tuple[int, int]:
     """Columns taken at once, and sums kept at once, a multiple of them."""
-    fitting = NEAREST_CACHE // (BYTES * (ORDER + 1) * n)
+    fitting = NEAREST_CACHE // (8 * MAX_LANES * (ORDER + 1) * n)
     most = min(max(fitting, 1), MAX_SUMS)
     columns = max(c for c in range(1, most + 1) if 2 * n % c == 0)
     rows = min(n, MAX_SUMS // columns)

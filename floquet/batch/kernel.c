@@ -1,7 +1,9 @@
 /* Half a period of u'' = -(x F - shift) u - sum_i w_i cos(p_i theta) G_i u, LANES points side by
- * side, and what P(z) needs of it. The same recurrence as floquet/batch/numpy_kernel.py; N coordinates, TERMS
- * cosines, Taylor ORDER, COLUMNS of U taken at once (a divisor of 2 N), BLOCK sums kept in registers
- * (a multiple of COLUMNS), POWERS, RADII and MAX_EXPONENT are set on the compiler's command line. */
+ * side, and what P(z) needs of it. The same recurrence as floquet/batch/numpy_kernel.py; N
+ * coordinates, TERMS cosines, Taylor ORDER, COLUMNS of U taken at once (a divisor of 2 N), BLOCK sums
+ * kept in registers (a multiple of COLUMNS). These and every other number that Python has too are set
+ * on the compiler's command line, by floquet/batch/c_kernel.py: POWERS, TINY (keeps v > 0 where a row
+ * of S is 0), RADII, RADII_ORDER, MAX_EXPONENT, MAX_MINORS, MAX_LANES. */
 
 #include <math.h>
 #include <stdlib.h>
@@ -16,8 +18,11 @@
 #define LANES 2
 #endif
 #define WIDE (2 * N)
-#define MOST_KEPT 64 /* steps whose cosines are kept for the next columns */
-#define TINY 1e-300 /* keeps v > 0 where a row of S is 0 */
+#define MAX_KEPT 64 /* steps whose cosines are kept for the next columns */
+
+_Static_assert(LANES <= MAX_LANES, "COLUMNS are counted for MAX_LANES");
+_Static_assert(WIDE % COLUMNS == 0 && BLOCK % COLUMNS == 0, "whole columns");
+_Static_assert(MAX_MINORS == 3, "polynomial() has the minors of 3 rows and no more");
 
 #define FLAT (N * COLUMNS)
 #define INLINE static inline __attribute__((always_inline))
@@ -87,7 +92,7 @@ static double longest_step(const double *worst, const int *phases, const double 
     }
     *rate = sqrt(perron_root(N, S)) + forcing;
     for (int k = 0; k < RADII; k++) {
-        double R = radii[k] * (ORDER + 1) / 25.0 / *rate;
+        double R = radii[k] * (ORDER + 1) / RADII_ORDER / *rate;
         memcpy(S, worst, sizeof S);
         for (int i = 1; i <= TERMS; i++) {
             double swell = cosh(fmin(phases[i - 1] * R, MAX_EXPONENT / 2));
@@ -220,7 +225,7 @@ static double finish(double U[WIDE][WIDE], double top[WIDE][WIDE], double A[N][N
     return sound ? perron_root(WIDE, scale) : INFINITY;
 }
 
-#if N <= 3
+#if N <= MAX_MINORS
 /* floquet.charpoly: coefficients as sums of principal minors, and how rounding in A moves them. */
 static void polynomial(double A[N][N], double first[N][N], double *P, double *sensitivity)
 {
@@ -271,7 +276,7 @@ static void polynomial(double A[N][N], double first[N][N], double *P, double *se
 #endif
 
 /* matrices (1 + TERMS, N, N); weights (1 + TERMS, points); shift (points); phases (TERMS);
- * radii (RADII). Out: for N <= 3 P (points, N + 1) and its sensitivity (points), beyond that A and
+ * radii (RADII). Out: for N <= MAX_MINORS P (points, N + 1) and its sensitivity (points), beyond that A and
  * first (points, N, N); growth and rate (points). Growth is infinite where the steps would be more
  * than `most`. Returns 0, or 1 without memory. */
 int march(int points, const double *matrices, const double *weights, const double *shift,
@@ -281,7 +286,7 @@ int march(int points, const double *matrices, const double *weights, const doubl
     lanes(*a)[FLAT] = aligned_alloc(64, sizeof(lanes[ORDER + 1][FLAT]));
     double(*U)[WIDE][WIDE] = malloc(sizeof(double[2 * LANES][WIDE][WIDE]));
     double(*peak)[WIDE][WIDE] = U + LANES;
-    double *series = malloc(sizeof(double) * TERMS * ORDER * MOST_KEPT);
+    double *series = malloc(sizeof(double) * TERMS * ORDER * MAX_KEPT);
     if (!a || !U || !series) {
         free(a);
         free(U);
@@ -324,8 +329,8 @@ int march(int points, const double *matrices, const double *weights, const doubl
                 for (int d = 0; d < 2; d++)
                     top[d][e] = larger((lanes){0.0}, a[d][e]);
             for (int step = 0; within && step < steps; step++) {
-                double *own = series + (step % MOST_KEPT) * TERMS * ORDER;
-                if (first == 0 || steps > MOST_KEPT)
+                double *own = series + (step % MAX_KEPT) * TERMS * ORDER;
+                if (first == 0 || steps > MAX_KEPT)
                     cosines(own, phases, step * h, h);
                 advance(a, matrices, own, w, s, h * h);
                 for (int e = 0; e < FLAT; e++)
@@ -345,7 +350,7 @@ int march(int points, const double *matrices, const double *weights, const doubl
             double A[N][N], block[N][N];
             size_t point = start + l;
             growth[point] = finish(U[l], peak[l], A, block);
-#if N <= 3
+#if N <= MAX_MINORS
             polynomial(A, block, one + point * (N + 1), other + point);
 #else
             memcpy(one + point * N * N, A, sizeof A);

@@ -16,9 +16,10 @@ import numpy as np
 from floquet.arrays import Float
 from floquet.charpoly import characteristic_polynomials
 from floquet.integrate.step_length import Term, fastest_rate, longest_step
+from floquet.integrate.taylor import Taylor
 
-ORDER, TOLERANCE = 24, 1e-17
-"""As for `floquet.integrate.taylor.Taylor`."""
+# as for one equation
+ORDER, TOLERANCE = Taylor().order, Taylor().tolerance
 
 # Points side by side in numpy: enough to hide Python's share, few enough for the cache.
 CHUNK = 256

@@ -12,6 +12,9 @@ Term = tuple[Float, float]
 RADII = frozen(np.geomspace(0.3, 40.0, 48))
 """Circles tried, in units of one over the fastest rate; the best lies near order + 1 of them."""
 
+RADII_ORDER = 25.0
+"""The order + 1 that they are for; for others they are longer or shorter by as much."""
+
 MAX_EXPONENT = 600.0
 
 
@@ -51,7 +54,7 @@ def longest_step(
     rate = fastest_rate(terms, damping)
     if rate == 0.0:
         return float("inf")
-    R = RADII * (order + 1) / 25.0 / rate
+    R = RADII * (order + 1) / RADII_ORDER / rate
     growth = R * (np.sqrt(perron_root(_swollen(terms, R))) + _drag(_as_terms(damping), R))
     # 1 - h/R exceeds 1/2 wherever the bound is of any use
     share = np.exp((np.log(0.5 * tolerance) - np.minimum(growth, MAX_EXPONENT)) / (order + 1))
