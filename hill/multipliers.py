@@ -49,40 +49,39 @@ class Multipliers:
     verdict: Verdict
 
 
-def multipliers(polynomial: Float, errors: Float, period: float, mean: float) -> Multipliers:
+def multipliers(polynomial: Float, errors: Float, period: float, log_scale: float) -> Multipliers:
     """Roots, T and the verdict.
 
     Parameters
     ----------
     polynomial, errors : (m + 1,) ndarray
-        Monic, highest power first; bounds on the absolute errors, the first one 0.
-    period : float
-    mean : float
-        Lower bound on the mean of all ln |mu|, by Liouville's formula: the largest is no smaller.
+        Monic in y, mu = y exp(log_scale), highest power first; bounds on the absolute errors, the
+        first one 0. The product of all |y| is 1, as far as the last coefficient is: the largest is
+        no smaller.
+    period, log_scale : float
     """
-    mu = polynomial_roots(polynomial)
-    mu = mu[np.argsort(-np.abs(mu), kind="stable")]
-    size = np.abs(mu)
-    radius = root_radii(polynomial[None], errors[None], mu[None], np.maximum(size, TINY)[None])[0]
-    with np.errstate(divide="ignore"):
-        high = float(np.max(np.log(size + radius)))
-        low = max(float(np.max(np.log(np.maximum(size - radius, 0.0)))), mean)
-        exponents: Complex = np.full(len(mu), -np.inf, complex)
-        exponents[size > 0.0] = np.log(mu[size > 0.0]) / period
+    y = polynomial_roots(polynomial)
+    y = y[np.argsort(-np.abs(y), kind="stable")]
+    size = np.abs(y)
+    radius = root_radii(polynomial[None], errors[None], y[None], np.maximum(size, TINY)[None])[0]
+    least = (abs(polynomial[-1]) - errors[-1]) ** (1.0 / len(y)) if errors[-1] < 1.0 else 0.0
+    with np.errstate(divide="ignore", over="ignore", under="ignore"):
+        logs = [np.log(np.max(x)) for x in (np.append(size - radius, least), size, size + radius)]
+        exponents: Complex = np.full(len(y), -np.inf, complex)
+        exponents[size > 0.0] = (np.log(y[size > 0.0]) + log_scale) / period
         share = np.divide(radius, size, out=np.ones_like(size), where=size > 0.0)
         off = -np.log1p(-np.minimum(share, 1.0)) / period
-    rounding = 8.0 * EPS * 2.0 / period
-    low, high = (
-        2.0 / period * x for x in (low - 8.0 * EPS * abs(low), high + 8.0 * EPS * abs(high))
-    )
-    low, high = low - rounding, high + rounding
-    T = float(np.clip(2.0 / period * np.log(size[0]), low, high))
+        mu = y * np.exp(log_scale)
+    rounding = 8.0 * EPS * (2.0 + abs(log_scale)) / period
+    low, T, high = (2.0 / period * (log + log_scale) for log in logs)
+    low, high = low - 8.0 * EPS * abs(low) - rounding, high + 8.0 * EPS * abs(high) + rounding
+    T = float(np.clip(T, low, high))
     verdict: Verdict = "undecided"
     if high < 0.0:
         verdict = "stable"
-    elif low > 0.0 or _beyond(polynomial, errors):
+    elif low > 0.0 or _beyond(polynomial, errors, log_scale):
         verdict = "unstable"
-    return Multipliers(mu, exponents, off + rounding, T, max(high - T, T - low), verdict)
+    return Multipliers(mu, exponents, off + rounding, T, float(max(high - T, T - low)), verdict)
 
 
 def newton_polygon(sizes: Float, points: Bool) -> list[tuple[int, int, float]]:
@@ -141,8 +140,13 @@ def _improved(c: Float, sizes: Float, mu: Complex) -> Complex:
     return mu
 
 
-def _beyond(p: Float, errors: Float) -> bool:
-    """Whether a real root is shown to be beyond 1 or -1, by the sign of the monic polynomial."""
-    margin = 1.01 * np.sum(errors) + HORNER * len(p) * EPS * np.sum(np.abs(p))
-    signs = (-1.0) ** np.arange(len(p))
-    return bool(np.sum(p) < -margin or np.sum(p * signs) < -margin)
+def _beyond(p: Float, errors: Float, log_scale: float) -> bool:
+    """Whether a real root is shown to be beyond mu = 1 or -1, by the monic polynomial's sign."""
+    k = np.arange(len(p))
+    with np.errstate(over="ignore", under="ignore", invalid="ignore"):
+        # over the leading power of y = exp(-log_scale)
+        powers = np.exp(k * log_scale)
+        off = HORNER * EPS * (len(p) + k * abs(log_scale)) * np.abs(p)
+        margin = 1.01 * np.sum((errors + off) * powers)
+        values = np.sum(p * powers), np.sum(p * powers * (-1.0) ** k)
+        return bool(min(values) < -margin)

@@ -5,7 +5,7 @@ by z_j^d,
 
     det(mu I - Phi) = exp pi (m nu - trace/Omega) (2 sinh(pi nu)/nu)^m det T
 
-(docs/theory.md, section 4). T is folded from both ends towards the middle group,
+(docs/theory.md, section 10). T is folded from both ends towards the middle group,
 
     S_k = D_k - U_k S_(k+1)^-1 L_k,
 
@@ -140,9 +140,7 @@ def folded(p: Pencil, t: Tail, K: int, nu: Complex) -> Folded:
     phase, log = np.linalg.slogdet(middle * ways.scale(0)[:s])
     beyond = _beyond(p, t, end, ways.nu)
     factors = [(phase, log), (np.exp(1j * beyond.imag), beyond.real)]
-    # 2 sinh(pi nu)/nu and exp(i pi Im nu), once for each multiplier
-    own = 2.0 * np.pi * np.sinc(1j * nu) * np.exp(1j * np.pi * nu.imag)
-    factors += [(own / np.abs(own), np.log(np.abs(own)))] * p.order
+    factors += [_free(nu)] * p.order
     phases += [phase for phase, _ in factors]
     logs += [log for _, log in factors]
     mantissa, exponent = from_logs(np.stack(phases, axis=1), np.stack(logs, axis=1))
@@ -157,6 +155,21 @@ def folded(p: Pencil, t: Tail, K: int, nu: Complex) -> Folded:
         mantissa=mantissa,
         exponent=exponent,
     )
+
+
+def _free(nu: Complex) -> tuple[Complex, Float]:
+    """Phase and ln of modulus of 2 sinh(pi nu)/nu exp(i pi Im nu)."""
+    up = np.where(nu.real < 0.0, -1.0, 1.0)
+    # 2 sinh(pi x)/x is even
+    x = up * nu
+    large = np.abs(x) > 1.0
+    far = np.where(large, x, 1.0)
+    # exp(-pi x) of it, which no x is too large for
+    rest = np.where(large, (1.0 - np.exp(-2.0 * np.pi * far)) / far, 1.0)
+    near = 2.0 * np.pi * np.sinc(1j * np.where(large, 0.0, x)) * np.exp(-np.pi * x)
+    rest = np.where(large, rest, near)
+    phase = np.exp(1j * np.pi * (x.imag + nu.imag)) * rest / np.abs(rest)
+    return phase, np.pi * x.real + np.log(np.abs(rest))
 
 
 def _beyond(p: Pencil, t: Tail, end: Complex, nu: Complex) -> Complex:

@@ -1,11 +1,12 @@
 r"""Coefficients of det(mu I - Phi) from its values on circles about 0.
 
-On |mu| = r a coefficient c_k is a mean of the values over r^k, so that it is known to what the
-values are, over r^k. Circles of several r, where the coefficients' sizes ask for them, make each
-known as well as it can be: c_k on the circle where c_k r^k is among the largest.
+All is over the size r that the multipliers have in the mean, ln r = -2 pi trace/(m Omega) by
+Liouville's formula: in y = mu/r the polynomial begins with 1, ends with (-1)^m, and has no other
+powers. By how much the values fail to say so is a measured error.
 
-The leading coefficient is 1, the constant one (-1)^m exp(-2 pi trace/Omega) by Liouville's formula,
-and there are no higher ones: by how much the values fail to say so is a measured error.
+On |y| = s a coefficient c_k is a mean of the values over s^k, so that it is known to what the
+values are, over s^k. Circles of several s, where the coefficients' sizes ask for them, make each
+known as well as it can be: c_k on the circle where c_k s^k is among the largest.
 """
 
 from dataclasses import dataclass
@@ -41,14 +42,14 @@ MOST_EXPONENT = 690.0
 
 @dataclass(frozen=True, eq=False)
 class Polynomial:
-    """Det(mu I - Phi), monic, highest power first.
+    """Det(r y I - Phi)/r^m, monic in y, highest power first.
 
     Attributes
     ----------
     coefficients, errors, data_errors : (m + 1,) ndarray
         And bounds on the absolute errors: of the equation as given, and by the errors it came with.
-    mean : float
-        Of ln |mu|, by Liouville's formula, less what it may be off.
+    log_scale : float
+        ln r.
     M : tuple of int
         Harmonics kept on either side.
     """
@@ -56,8 +57,29 @@ class Polynomial:
     coefficients: Float
     errors: Float
     data_errors: Float
-    mean: float
+    log_scale: float
     M: tuple[int, ...]
+
+    def unscaled(self) -> tuple[Float, Float, Float]:
+        """Coefficients, errors and data errors of det(mu I - Phi).
+
+        Raises
+        ------
+        OverflowError
+            One is too large for a float.
+        """
+        log = self.log_scale * np.arange(len(self.coefficients))
+        with np.errstate(over="ignore", under="ignore"):
+            scale = np.exp(log)
+            c = self.coefficients * scale
+            errors = self.errors * scale + 2.0 * EPS * (1.0 + np.abs(log)) * np.abs(c)
+            data = self.data_errors * scale
+        # what is too small for a float is not known to be 0
+        errors = np.where(self.log_scale == 0.0, self.errors, errors + np.finfo(float).tiny)
+        errors[0] = 0.0
+        if not (np.all(np.isfinite(c)) and np.all(np.isfinite(errors + data))):
+            raise OverflowError(OVERFLOW)
+        return c, errors, data
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,26 +108,32 @@ def polynomial(equation: PeriodicEquation) -> Polynomial:
         K = kept(p, t)
     except ValueError as refused:
         raise ValueError(f"Omega = {equation.Omega:g}: {refused}") from None
-    m = p.order
-    # where the product of all multipliers is 1
-    found = [_circle(p, t, K, -p.trace / (m * p.Omega))]
-    while len(found) < MOST_CIRCLES and (rho := _better(p, found)) is not None:
-        found.append(_circle(p, t, K, rho))
+    found = [_circle(p, t, K, 0.0)]
+    while len(found) < MOST_CIRCLES and (shift := _better(p, found)) is not None:
+        found.append(_circle(p, t, K, shift))
     c, errors, data = _combined(p, found)
     if not (np.all(np.isfinite(c)) and np.all(np.isfinite(errors + data))):
         raise OverflowError(OVERFLOW)
     harmonics = (K + 1) * p.reach - p.reach // 2 - 1
-    off = p.trace_error + 4.0 * EPS * abs(p.trace)
-    mean = -2.0 * np.pi / (m * p.Omega) * (p.trace + off)
-    return Polynomial(c[::-1], errors[::-1], data[::-1], mean, (harmonics,))
+    return Polynomial(c[::-1], errors[::-1], data[::-1], 2.0 * np.pi * _mean(p), (harmonics,))
 
 
-def _circle(p: Pencil, t: Tail, K: int, rho: float) -> _Circle:
-    """By samples at about |mu| = exp(2 pi rho)."""
+def _mean(p: Pencil) -> float:
+    """Ln r/2 pi."""
+    return -p.trace / (p.order * p.Omega)
+
+
+def _mean_error(p: Pencil) -> float:
+    """What m ln r is off: the trace's own error, and roundings of it."""
+    return 2.0 * np.pi * (p.trace_error + 4.0 * EPS * abs(p.trace)) / p.Omega
+
+
+def _circle(p: Pencil, t: Tail, K: int, shift: float) -> _Circle:
+    """By samples at about |y| = exp(2 pi shift)."""
     best = None
-    for shift in SHIFTS:
+    for more in SHIFTS:
         try:
-            found = _samples(p, t, K, rho + shift)
+            found = _samples(p, t, K, shift + more)
         except np.linalg.LinAlgError:
             continue
         if best is None or found.relative < best.relative:
@@ -117,72 +145,57 @@ def _circle(p: Pencil, t: Tail, K: int, rho: float) -> _Circle:
     return best
 
 
-def _samples(p: Pencil, t: Tail, K: int, rho: float) -> _Circle:
-    """By samples at |mu| = exp(2 pi rho)."""
+def _samples(p: Pencil, t: Tail, K: int, shift: float) -> _Circle:
+    """By samples at |y| = exp(2 pi shift)."""
     m = p.order
     count = m + 1 + SPARE + (m + SPARE + 1) % 2
     half = np.arange(count // 2 + 1)
-    f = folded(p, t, K, rho + 1j * half / count)
+    f = folded(p, t, K, _mean(p) + shift + 1j * half / count)
     moved = motion(p, t, f)
     top = int(np.max(f.exponent))
-    with np.errstate(under="ignore"):
-        values = f.mantissa * np.ldexp(1.0, f.exponent - top)
+    values = f.mantissa * np.ldexp(1.0, np.maximum(f.exponent - top, -1000))
     means = np.fft.irfft(values.conj(), count)
     share = np.where((half == 0) | (half == count // 2), 1.0, 2.0) / count
 
     # means = c_k exp(weight_k)
     k = np.arange(m + 1)
-    own = np.pi * (m * rho - p.trace / p.Omega)
-    weight = 2.0 * np.pi * rho * k - own
-    sizes = np.abs(weight) + np.pi * (m * abs(rho) + abs(p.trace) / p.Omega)
-    weight = weight - top * np.log(2.0)
-    leading = np.exp(min(weight[m], MOST_EXPONENT))
-    last = (-1.0) ** m * np.exp(weight[0] - 2.0 * np.pi * p.trace / p.Omega)
-    defect = max(
-        abs(means[m] - leading), abs(means[0] - last), float(np.max(np.abs(means[m + 1 :])))
-    )
+    weight = np.pi * shift * (2.0 * k - m) - top * np.log(2.0)
+    expected = np.zeros(len(means))
+    expected[[0, m]] = np.exp(np.minimum(weight[[0, m]], MOST_EXPONENT)) * [(-1.0) ** m, 1.0]
+    defect = float(np.max(np.abs((means - expected)[[0, *range(m, len(means))]])))
     lost = float(np.sum(share * np.abs(values) * (moved.rounding + 10.0 * LEFT)))
-    error = SAFETY * defect + lost + 2.0 * EPS * sizes * np.abs(means[: m + 1])
+    own = 2.0 * EPS * (np.abs(weight) + np.pi * m * abs(shift)) + _mean_error(p)
+    error = SAFETY * defect + lost + own * np.abs(means[: m + 1])
     data = float(np.sum(share * np.abs(values) * moved.data))
-    size = float(np.max(np.abs(values)))
+    relative = float(np.max(error)) / float(np.max(np.abs(values)))
     with np.errstate(over="ignore", under="ignore", invalid="ignore"):
         back = np.exp(-weight)
-        return _Circle(
-            means[: m + 1] * back, error * back, data * back, float(np.max(error)) / size
-        )
+        return _Circle(means[: m + 1] * back, error * back, data * back, relative)
 
 
 def _combined(p: Pencil, circles: list[_Circle]) -> tuple[Float, Float, Float]:
     """Each coefficient by the circle that knows it best, lowest power first."""
-    every = np.array([circle.errors for circle in circles])
-    best = np.nanargmin(every, axis=0), np.arange(p.order + 1)
-    c = np.array([circle.c for circle in circles])[best]
-    data = np.array([circle.data for circle in circles])[best]
-    errors = every[best]
-    log = -2.0 * np.pi * p.trace / p.Omega
-    with np.errstate(over="ignore", under="ignore"):
-        constant = np.exp(log)
-    error = constant * (2.0 * EPS * (2.0 + abs(log)) + 2.0 * np.pi * p.trace_error / p.Omega)
-    if error <= errors[0]:
-        c[0], errors[0] = (-1.0) ** p.order * constant, error
-    c[p.order], errors[p.order] = 1.0, 0.0
+    every = np.nan_to_num([circle.errors for circle in circles], nan=np.inf)
+    best = np.argmin(every, axis=0), np.arange(p.order + 1)
+    c, errors, data = (
+        np.array([getattr(circle, name) for circle in circles])[best]
+        for name in ("c", "errors", "data")
+    )
+    c[[0, -1]], errors[[0, -1]] = [(-1.0) ** p.order, 1.0], [_mean_error(p), 0.0]
     return c, errors, data
 
 
 def _better(p: Pencil, circles: list[_Circle]) -> float | None:
-    """The circle that would add most to what is known, as ln r/2 pi; None if it is not much."""
+    """The circle that would add most to what is known, as ln s/2 pi; None if it is not much."""
     c, errors, _ = _combined(p, circles)
     k = np.arange(p.order + 1)
     with np.errstate(divide="ignore"):
         size, known = np.log(np.maximum(np.abs(c), errors)), np.log(errors)
-    certain = np.abs(c) > 2.0 * errors
     level = np.log(min(circle.relative for circle in circles))
     best, most = None, np.log(GAIN)
-    for _, _, log_r in newton_polygon(size, certain):
-        if abs(log_r) > MOST_EXPONENT / max(p.order, 1) * 2.0:
-            continue
-        reached = level + np.max(size + log_r * k) - log_r * k
-        gain = np.max((known - reached)[1 : p.order], initial=-np.inf)
+    for _, _, log_s in newton_polygon(size, np.abs(c) > 2.0 * errors):
+        reached = level + np.max(size + log_s * k) - log_s * k
+        gain = float(np.max((known - reached)[1 : p.order], initial=-np.inf))
         if gain > most:
-            best, most = log_r / (2.0 * np.pi), gain
+            best, most = log_s / (2.0 * np.pi), gain
     return best

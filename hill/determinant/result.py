@@ -121,11 +121,12 @@ def of_multipliers(equation: PeriodicEquation) -> Characteristic:
     # what overflows is refused, by what comes out
     with np.errstate(over="ignore", invalid="ignore"):
         found = polynomial(equation)
-    m = multipliers(found.coefficients, found.errors, equation.period, found.mean)
+    c, errors, data = found.unscaled()
+    m = multipliers(found.coefficients, found.errors, equation.period, found.log_scale)
     return Characteristic(
-        polynomial=found.coefficients,
-        errors=found.errors,
-        data_error=float(np.max(found.data_errors)),
+        polynomial=c,
+        errors=errors,
+        data_error=float(np.max(data)),
         z=np.empty(0, complex),
         multipliers=m.mu,
         exponents=m.exponents,
