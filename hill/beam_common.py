@@ -21,9 +21,6 @@ COMMON = (
     Parameter("omega_L", 0.0, moves=("G", "H")),
 )
 
-# Points a unit of Omega/omega_L at which a longitudinal resonance is looked for.
-SCAN = 64
-
 # Rounding of the closed forms, over the largest element: against quadrature they are 21 ulps off at
 # most over 200 beams of up to 8 modes. Near a longitudinal resonance the force adds its own.
 MATRIX_ERROR = 32.0 * 2.0**-52

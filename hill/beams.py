@@ -7,7 +7,6 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import brentq
 
 from hill import checks
 from hill.arrays import Complex, Float
@@ -16,7 +15,6 @@ from hill.beam_common import (
     MAX_G,
     MAX_MODES,
     RESONANCE_ULPS,
-    SCAN,
     forcing,
     frequencies,
     matrix_error,
@@ -237,17 +235,8 @@ class SteppedBeam:
         if math.isinf(self.omega_L):
             return np.empty(0)
         least, most = low / self.omega_L, high / self.omega_L
-
-        def stiffness(sigma: float) -> float:
-            nu = np.pi * sigma
-            return nu * stepped.force_stiffness(nu, self.xi_c, self.area_ratio)
-
-        # roots are about 1 apart in sigma, and nowhere nearer than the sections' own
-        grid = np.linspace(least, most, max(int(SCAN * (most - least)), 2) + 1)
-        values = np.array([stiffness(x) for x in grid])
-        changes = np.flatnonzero(np.sign(values[:-1]) * np.sign(values[1:]) < 0)
-        inner = [brentq(stiffness, grid[k], grid[k + 1], xtol=1e-14) for k in changes]
-        return self.omega_L * np.array([x for x in (*grid[values == 0.0], *inner) if x > 0.0])
+        found = stepped.force_resonances(least, most, self.xi_c, self.area_ratio)
+        return self.omega_L * found
 
     def natural_frequencies(self) -> Float | Complex:
         """omega_(B) and omega_(1..N) under the constant thrust, as for `UniformBeam`."""

@@ -211,3 +211,41 @@ def test_near_resonance_the_routes_still_meet(offset: float) -> None:
     assert disagreement(uniform(omega_L=1.0), 1.0 + offset, 0.1) < TOLERANCE
     resonant = stepped(omega_L=1.0, xi_c=0.37, area_ratio=1.0)
     assert disagreement(resonant, 1.0 + offset, 0.1) < tolerance
+
+
+# ---- where the stepped bar resonates -------------------------------------------------------------
+
+
+def bar_with(sigma: float, xi_c: float, area_ratio: float) -> float:
+    """Free end to free end: the force at xi = 1 of a bar that starts with u = 1, P = 0."""
+    nu = np.pi * sigma
+    u, P = np.cos(nu * xi_c), -area_ratio * nu * np.sin(nu * xi_c)
+    rest = nu * (1.0 - xi_c)
+    return float(P * np.cos(rest) - nu * u * np.sin(rest)) / nu
+
+
+@pytest.mark.parametrize("xi_c", [0.0, 0.3, 0.5, 0.6, 0.999])
+@pytest.mark.parametrize("area_ratio", [1e-6, 1e-3, 0.6, 1.0, 7.0, 1e6])
+def test_a_stepped_bar_has_one_resonance_beside_every_whole_number(
+    xi_c: float, area_ratio: float
+) -> None:
+    found = stepped(xi_c=xi_c, area_ratio=area_ratio, omega_L=1.0).singular_Omega(0.0, 40.49)
+    assert np.array_equal(np.round(found), np.arange(1, 41))
+    for sigma in found:
+        # on both sides of a change of sign, by the wave equation
+        values = [bar_with(sigma + d, xi_c, area_ratio) for d in (-1e-9, 1e-9)]
+        assert values[0] * values[1] <= 0.0 or min(map(abs, values)) < 1e-12 * (1.0 + area_ratio)
+
+
+def test_two_resonances_close_together_are_both_found() -> None:
+    """A thin bar on a thick one: at 2.5 one of each would meet."""
+    beam = stepped(xi_c=0.6, area_ratio=1e-4, omega_L=1.0)
+    found = beam.singular_Omega(2.008, 3.008)
+    assert len(found) == 2
+    assert 0.005 < found[1] - found[0] < 0.015
+    assert beam.singular_Omega(found[0] + 1e-6, 2.5).size == 0
+
+
+def test_a_uniform_bar_resonates_at_whole_numbers() -> None:
+    found = stepped(xi_c=0.3, area_ratio=1.0, omega_L=1.0).singular_Omega(0.5, 30.0)
+    np.testing.assert_allclose(found, np.arange(1, 31), rtol=1e-14)

@@ -6,6 +6,7 @@ All three matrices are over lambda_1**4 and in the order q_1..q_N, q_B, q_A of E
 from functools import lru_cache
 
 import numpy as np
+from scipy.optimize import brentq
 
 from hill.arrays import Float, frozen
 from hill.matrices.integrals import integral, sine_integral
@@ -109,6 +110,24 @@ def force_stiffness(nu: float, xi_c: float, area_ratio: float) -> float:
         np.cos(nu * xi_c) * rest * np.sinc(nu * rest / np.pi)
         + area_ratio * xi_c * np.sinc(nu * xi_c / np.pi) * np.cos(nu * rest)
     )
+
+
+def force_resonances(least: float, most: float, xi_c: float, area_ratio: float) -> Float:
+    """Where the axial force is infinite: sigma > 0 from `least` to `most`, ascending.
+
+    With r the area ratio, 2 nu times `force_stiffness` is (1 + r) sin nu + (1 - r) sin (1 - 2 xi_c)
+    nu. On the lines sigma = k + 1/2 + i y the first term is (1 + r) cosh pi y in modulus, more than
+    the second can be, so by Rouche there is one root between neighbouring lines, as sin nu has; it
+    is real, since the sign changes between their real points.
+    """
+
+    def stiffness(sigma: float) -> float:
+        nu = np.pi * sigma
+        return nu * force_stiffness(nu, xi_c, area_ratio)
+
+    whole = range(max(round(least), 1), round(most) + 1)
+    found = [brentq(stiffness, k - 0.5, k + 0.5, xtol=1e-14) for k in whole]
+    return np.array([sigma for sigma in found if least <= sigma <= most])
 
 
 def reduce(mass_matrix: Float, load: Float) -> Float:
