@@ -1,15 +1,10 @@
-"""What a paper with printed tables says of itself, for `verify` to hold it against both routes.
+"""What a paper with printed tables says of itself, for `verify` to hold it against both routes."""
 
-Another paper is a module or a folder of its own, ``compare/publications/NAME``, in which
-``PUBLICATION`` is a `Publication`: `verify --publication NAME` finds it there, and nothing else has
-to change. ``compare/publications/mathieu/`` is a small one to start from.
-"""
-
-import tomllib
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from importlib.resources.abc import Traversable
 from typing import Any, Generic, Literal, Protocol, TypeVar
+
+from compare.erratum import Erratum
 
 Method = Literal["taylor", "cvodes"]
 
@@ -64,36 +59,6 @@ class Counts(Protocol):
     def lines(self) -> tuple[str, ...]:
         """The same in words."""
         ...
-
-
-@dataclass(frozen=True)
-class Erratum:
-    """What is wrong in a paper, printed beside corrected.
-
-    Attributes
-    ----------
-    kind : str
-        "cell", "text", "equation", "slip" (of the paper's program), or "open" (not explained).
-    row, field : str
-        For a cell, the printed row and its column; empty otherwise.
-    test : str
-        The test that shows it.
-    """
-
-    id: str
-    kind: str
-    where: str
-    printed: str
-    corrected: str
-    why: str
-    test: str
-    row: str = ""
-    field: str = ""
-
-
-def errata_from(file: Traversable) -> tuple[Erratum, ...]:
-    """The errata of a TOML file, in its order, each an ``[[erratum]]``."""
-    return tuple(Erratum(**entry) for entry in tomllib.loads(file.read_text())["erratum"])
 
 
 @dataclass(frozen=True)
@@ -193,7 +158,12 @@ class MoreTerms(Generic[R]):
 class Publication(Generic[R, S, O]):
     """A paper with printed tables.
 
-    Functions are those of a module, so that other processes can be handed them.
+    To add one, put a module or a folder ``NAME`` into ``compare/publications``, its data beside it
+    and ``PUBLICATION = Publication(...)`` in it: `verify --publication NAME` finds it there, and
+    nothing else has to change. ``compare/publications/mathieu/`` is a small one to start from. What
+    it takes is a dataclass for a printed row, another for an outcome (`PrintedRow`, `RowOutcome`
+    say what they must have), and the functions below; those are a module's own functions, so that
+    other processes can be handed them.
 
     Attributes
     ----------

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from compare.publication import Erratum
+from compare.erratum import Erratum
 from compare.report.errata import all_errata
 from compare.report.program.deck import constants
 from compare.report.program.listing import Stab, Uniform, coefficients, frequencies, stab

@@ -13,14 +13,14 @@ from compare.report.figures import coupled as coupling
 from compare.report.figures import draw as drawing
 from compare.report.figures import style
 from compare.report.figures.beams import beam_of, family_of, resonance_named
-from compare.report.figures.catalogue import ETA, FIGURES, GAMMA, ORDER
+from compare.report.figures.catalogue import FIGURES, ORDER
 from compare.report.figures.compute import KINDS, compute, named, tasks
 from compare.report.figures.critical import BOTTOM, TOP
 from compare.report.figures.data import FigureData, Series, as_csv, from_csv
 from compare.report.figures.sampling import adaptive
 from compare.report.one_route import T_of, equation, solve
 from compare.report.steady import loss
-from compare.report.tables import number, rows
+from compare.report.tables import ETA, GAMMA, number, rows
 from compare.stability.indicators import indicator
 from hill import characteristic
 from hill.averaging import modal

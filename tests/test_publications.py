@@ -16,7 +16,8 @@ from scipy.linalg import eigh_tridiagonal
 from compare import both_routes, publications, verify
 from compare.__main__ import main
 from compare.both_routes import crosscheck
-from compare.publication import Cell, Column, Erratum, Publication, Rendering
+from compare.erratum import Erratum
+from compare.publication import Cell, Column, Publication, Rendering
 from compare.publications import mathieu
 from compare.publications.mathieu.outcome import Around
 from compare.publications.mathieu.table import Row

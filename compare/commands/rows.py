@@ -24,8 +24,7 @@ examples:
   verify --table 3 --more-terms       beside the five terms that are printed, eight and the limit
   verify --publication mathieu        another paper: Mathieu's characteristic values
 
-columns (of the report; with --publication mathieu, P is P(1) or P(-1) at the printed value, and
-shown by says which routes show a sign change of it within half a unit of the last digit):
+columns of the report:
   T printed   the report's characteristic argument, twice the growth exponent; 0 is stable
   T as run    the report's program, truncation and slips included, at the Omega it was run at
   T Hill      the determinant with its tail summed;  T Floquet  the monodromy matrix
@@ -33,6 +32,9 @@ shown by says which routes show a sign change of it within half a unit of the la
   bound       the sum of the two error bounds, which |dP| must not exceed
   cause       why print differs: agrees, truncation, listing-slip, misprint (and what its
               corrected cell is), unexplained
+
+columns of mathieu: P(1) or P(-1) at the printed value by both routes, the bound on it, and which
+routes show it to change its sign within half a unit of the last digit.
 
 exit status: 0 the routes agree on every row and every difference from print has its known cause;
 1 they do not; 2 wrong usage or input."""

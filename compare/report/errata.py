@@ -3,7 +3,7 @@
 from functools import cache
 from importlib.resources import files
 
-from compare.publication import Erratum, errata_from
+from compare.erratum import Erratum, errata_from
 
 
 @cache

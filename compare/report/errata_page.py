@@ -11,8 +11,8 @@ from statistics import median
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
+from compare.erratum import Erratum
 from compare.output import check_writable, write_whole
-from compare.publication import Erratum
 from compare.publications.kincaid import check
 from compare.report.errata import all_errata
 from compare.report.match import distance

@@ -7,7 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from compare.both_routes import CrossCheck, compare_routes
-from compare.publication import Erratum, Method
+from compare.erratum import Erratum
+from compare.publication import Method
 from compare.report.match import distance
 from compare.report.program.deck import constants
 from compare.report.program.listing import Stab, stab

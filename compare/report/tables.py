@@ -122,6 +122,13 @@ STEPPED = parameters(2)
 """The beam of Table 2."""
 
 
+GAMMA = float(heading(1)["run"]["gamma"])
+"""Of all three tables."""
+
+ETA = 0.01
+"""The transverse damping of section 7.3, wherever there is any."""
+
+
 @cache
 def recovered_frequencies() -> dict[str, dict[str, Any]]:
     """Omega as run and where it comes from, by printed row."""

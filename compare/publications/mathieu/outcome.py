@@ -7,7 +7,8 @@ from typing import Literal
 import numpy as np
 
 from compare.both_routes import CrossCheck, crosscheck
-from compare.publication import Erratum, Method
+from compare.erratum import Erratum
+from compare.publication import Method
 from compare.publications.mathieu.table import Row
 from floquet import Monodromy
 from hill import Characteristic, HillEquation

@@ -6,7 +6,7 @@ from decimal import Decimal
 from functools import cache
 from importlib.resources import files
 
-from compare.publication import Erratum, errata_from
+from compare.erratum import Erratum, errata_from
 
 DATA = files("compare") / "publications" / "mathieu" / "table.toml"
 EVEN, ODD = 1, 2

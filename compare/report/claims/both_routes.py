@@ -12,6 +12,7 @@ from compare.both_routes import compare_routes
 from compare.report.claims.finding import Number
 from compare.report.one_route import ROUTES, Beam, RouteName, equation, solve
 from compare.report.steady import natural_frequencies
+from compare.report.tables import GAMMA
 from compare.stability.indicators import indicator, zero
 from floquet.weak_form import galerkin
 from hill import HillEquation
@@ -65,7 +66,7 @@ def by_both(label: str, value: Callable[[RouteName], float], digits: int) -> Num
 
 @lru_cache(maxsize=KEPT)
 def both(
-    beam: Beam, Omega: float, gamma: float = 0.1, eta: float = 0.0, initial_terms: int = 0
+    beam: Beam, Omega: float, gamma: float = GAMMA, eta: float = 0.0, initial_terms: int = 0
 ) -> Both:
     """Solve by both routes.
 
@@ -126,7 +127,7 @@ def real_frequencies(beam: Beam) -> tuple[float, ...]:
 
 
 def boundary(
-    beam: Beam, unstable: float, stable: float, gamma: float = 0.1, eta: float = 0.0
+    beam: Beam, unstable: float, stable: float, gamma: float = GAMMA, eta: float = 0.0
 ) -> Boundary:
     """The forcing frequency between an unstable and a stable one where stability begins.
 
@@ -154,7 +155,7 @@ def _margin(route: RouteName, beam: Beam, gamma: float, eta: float) -> Any:
 
 
 def edge(
-    beam: Beam, start: float, step: float, gamma: float = 0.1, eta: float = 0.0, most: int = 60
+    beam: Beam, start: float, step: float, gamma: float = GAMMA, eta: float = 0.0, most: int = 60
 ) -> Boundary:
     """From an unstable `start` outward by `step` to the first stable point, and the zero before it.
 
@@ -173,7 +174,9 @@ def edge(
     raise ValueError(f"no stable point within {most} steps of {step:g} from Omega = {start:g}")
 
 
-def severest(beam: Beam, Omegas: NDArray[np.float64], gamma: float = 0.1, eta: float = 0.0) -> Both:
+def severest(
+    beam: Beam, Omegas: NDArray[np.float64], gamma: float = GAMMA, eta: float = 0.0
+) -> Both:
     """The largest T among some forcing frequencies."""
     found = [both(beam, float(Omega), gamma, eta) for Omega in Omegas]
     return max(found, key=lambda point: point.hill)

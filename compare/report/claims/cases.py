@@ -8,13 +8,9 @@ import numpy as np
 
 from compare.report.claims.both_routes import Both, Boundary, both, edge, real_frequencies
 from compare.report.one_route import Beam, RouteName
-from compare.report.tables import STEPPED, UNIFORM
+from compare.report.tables import GAMMA, STEPPED, UNIFORM
 from hill import SteppedBeam, UniformBeam
 from hill.averaging import first_order
-
-GAMMA = 0.1
-ETA = 0.01
-"""The damping factor of Figures 8 and 15 to 25."""
 
 STEP = {name: STEPPED[name] for name in ("xi_c", "area_ratio", "inertia_ratio")}
 """The step of Table 2."""

@@ -5,7 +5,7 @@ from itertools import pairwise
 import numpy as np
 
 from compare.report.claims.both_routes import RoutesDisagree, both
-from compare.report.claims.cases import GAMMA, regions, resonances, uniform
+from compare.report.claims.cases import regions, resonances, uniform
 from compare.report.claims.finding import (
     PRINTED,
     VISIBLE,
@@ -16,6 +16,7 @@ from compare.report.claims.finding import (
     share,
 )
 from compare.report.one_route import ROUTES, equation, integral_of_force
+from compare.report.tables import GAMMA
 from hill import UniformBeam
 
 # Closed form against quadrature, of integrals of order 10.

@@ -6,7 +6,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from compare.report.claims.both_routes import both, by_both
-from compare.report.claims.cases import ETA, GAMMA, Region, beams, regions, resonances, uniform
+from compare.report.claims.cases import Region, beams, regions, resonances, uniform
 from compare.report.claims.finding import (
     PRINTED,
     VISIBLE,
@@ -17,7 +17,7 @@ from compare.report.claims.finding import (
     share,
 )
 from compare.report.one_route import RouteName
-from compare.report.tables import rows
+from compare.report.tables import ETA, GAMMA, rows
 
 # A region is "larger" where damping of .01 leaves more than half of its T_x.
 LARGER = 2.0

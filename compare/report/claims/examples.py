@@ -5,9 +5,10 @@ import math
 import numpy as np
 
 from compare.report.claims.both_routes import Both, both, frequencies, real_frequencies, severest
-from compare.report.claims.cases import ETA, GAMMA, STEP, stepped, uniform
+from compare.report.claims.cases import STEP, stepped, uniform
 from compare.report.claims.finding import Finding, Number, check_for, graded, share
 from compare.report.one_route import Beam
+from compare.report.tables import ETA, GAMMA
 from hill.averaging import Resonance, first_order
 from hill.matrices.modes import eigenvalue
 

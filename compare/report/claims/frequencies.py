@@ -4,10 +4,11 @@ import numpy as np
 from scipy.special import jn_zeros, jv
 
 from compare.report.claims.both_routes import RoutesDisagree, both, frequencies, real_frequencies
-from compare.report.claims.cases import ETA, uniform
+from compare.report.claims.cases import uniform
 from compare.report.claims.finding import VISIBLE, Finding, Number, check_for, graded, share
 from compare.report.one_route import ROUTES, Beam
 from compare.report.steady import buckling, loss
+from compare.report.tables import ETA
 from hill import UniformBeam
 
 BUCKLING = 25.67

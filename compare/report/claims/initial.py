@@ -3,8 +3,9 @@
 from functools import lru_cache
 
 from compare.report.claims.both_routes import Both, both
-from compare.report.claims.cases import GAMMA, resonances, uniform
+from compare.report.claims.cases import resonances, uniform
 from compare.report.claims.finding import VISIBLE, Finding, Number, check_for, graded
+from compare.report.tables import GAMMA
 
 TERMS = 5
 """As many as the listing's S; with 12 no verdict of Table 3 is another (see the tests)."""

@@ -13,11 +13,12 @@ from functools import lru_cache
 
 from compare.report.claims.both_routes import Both, solve_both
 from compare.report.one_route import ROUTES, equation, out_of_phase
+from compare.report.tables import GAMMA
 from hill import HillEquation, UniformBeam
 
 
 @lru_cache(maxsize=64)
-def sine_alone(beam: UniformBeam, Omega: float, gamma: float = 0.1) -> Both:
+def sine_alone(beam: UniformBeam, Omega: float, gamma: float = GAMMA) -> Both:
     """T with only the part of the pulsating force a quarter of a period behind the thrust."""
     closed, summed = (
         HillEquation(

@@ -3,10 +3,11 @@
 import numpy as np
 
 from compare.report.claims.both_routes import Boundary, both, boundary, by_both, edge, severest
-from compare.report.claims.cases import ETA, Region, regions, resonances, uniform
+from compare.report.claims.cases import Region, regions, resonances, uniform
 from compare.report.claims.finding import VISIBLE, Finding, Number, check_for, graded, share
 from compare.report.claims.out_of_phase import sine_alone
 from compare.report.one_route import RouteName
+from compare.report.tables import ETA
 from hill import UniformBeam
 
 OMEGA_L = 2.0

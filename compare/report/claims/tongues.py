@@ -5,10 +5,10 @@ from functools import partial
 import numpy as np
 
 from compare.report.claims.both_routes import both, by_both, real_frequencies
-from compare.report.claims.cases import GAMMA, Region, beams, every_region, regions, uniform
+from compare.report.claims.cases import Region, beams, every_region, regions, uniform
 from compare.report.claims.finding import VISIBLE, Finding, Number, check_for, graded, share
 from compare.report.one_route import RouteName
-from compare.report.tables import rows
+from compare.report.tables import GAMMA, rows
 from hill import characteristic
 
 # Thrust ratios over which boundaries and widths are called linear; tables and examples have .1.

@@ -4,10 +4,9 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 from compare.report.claims.both_routes import both
-from compare.report.claims.cases import GAMMA
 from compare.report.claims.finding import PRINTED, Finding, Number, check_for, graded
 from compare.report.match import distance
-from compare.report.tables import rows
+from compare.report.tables import GAMMA, rows
 from hill import characteristic
 
 # What the program calls unstable (STAB).

@@ -7,9 +7,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from compare.edges.field import PolynomialField
-from compare.report.figures.catalogue import GAMMA, Figure
+from compare.report.figures.catalogue import Figure
 from compare.report.one_route import Beam, RouteName, family
-from compare.report.tables import Row, rows
+from compare.report.tables import GAMMA, Row, rows
 from hill import SteppedBeam, UniformBeam
 from hill.averaging import Resonance, first_order, modal
 

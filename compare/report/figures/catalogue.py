@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from math import inf
 from typing import Any, Literal
 
-from compare.report.tables import STEPPED, UNIFORM
+from compare.report.tables import ETA, STEPPED, UNIFORM
 
 Kind = Literal[
     "frequencies", "growth", "regions", "critical", "compliance", "integral", "resonant", "coupled"
@@ -16,9 +16,6 @@ Kind = Literal[
 
 NORM = {"T0": 0.0, "K_theta": 1.0, "xi_G": 0.5}
 """Section 7.2."""
-
-GAMMA, ETA = 0.1, 0.01
-"""Of the tables, and of section 7.3."""
 
 ORDER = (
     "2 omega_(B)",

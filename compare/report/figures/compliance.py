@@ -12,10 +12,11 @@ from compare.report.figures.beams import (
     printed,
     same_resonance,
 )
-from compare.report.figures.catalogue import GAMMA, ORDER, Figure
+from compare.report.figures.catalogue import ORDER, Figure
 from compare.report.figures.data import FigureData, Float, Series, largest
 from compare.report.figures.sampling import adaptive
 from compare.report.one_route import RouteName, T_of, equation, integral_of_force, solve
+from compare.report.tables import GAMMA
 from hill import UniformBeam
 
 # The top of Figure 26. Marks keep below it: where P spans twenty powers of ten, Hill's route says

@@ -7,7 +7,7 @@ import numpy as np
 from compare.edges.tongue import Tongue
 from compare.edges.tracer import follow
 from compare.report.figures.beams import RESONANCES, beam_of, family_of, point_count
-from compare.report.figures.catalogue import GAMMA, Figure
+from compare.report.figures.catalogue import Figure
 from compare.report.figures.data import FigureData, Float, Series, largest
 from compare.report.figures.regions import (
     ended_at_zero,
@@ -17,6 +17,7 @@ from compare.report.figures.regions import (
     section_parameters,
 )
 from compare.report.one_route import RouteName, equation, solve
+from compare.report.tables import GAMMA
 from compare.stability.indicators import crossings, indicator, zero
 from hill.averaging import Resonance
 

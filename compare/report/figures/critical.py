@@ -12,10 +12,11 @@ from compare.report.figures.beams import (
     printed,
     same_resonance,
 )
-from compare.report.figures.catalogue import GAMMA, Figure
+from compare.report.figures.catalogue import Figure
 from compare.report.figures.data import FigureData, Float, Series, largest
 from compare.report.figures.regions import FINEST
 from compare.report.one_route import RouteName, T_of, equation, solve
+from compare.report.tables import GAMMA
 from compare.stability.indicators import Function, crossings, interpolate, zero
 
 TOP, BOTTOM = "T_x", "critical"

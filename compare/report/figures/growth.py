@@ -14,11 +14,11 @@ from compare.report.figures.beams import (
     printed,
     resonance_named,
 )
-from compare.report.figures.catalogue import GAMMA, ORDER, Figure
+from compare.report.figures.catalogue import ORDER, Figure
 from compare.report.figures.data import FigureData, Float, Series, largest
 from compare.report.figures.sampling import adaptive
 from compare.report.one_route import Beam, RouteName, T_of, equation, solve
-from compare.report.tables import Row, number
+from compare.report.tables import GAMMA, Row, number
 from compare.stability.indicators import Function, crossings, interpolate_in_Omega
 from hill.averaging import half_width
 

@@ -4,8 +4,9 @@ import re
 from collections.abc import Callable
 from typing import Any
 
-from compare.report.figures.catalogue import ETA, GAMMA, Figure
+from compare.report.figures.catalogue import Figure
 from compare.report.figures.data import FigureData
+from compare.report.tables import ETA, GAMMA
 
 WIDTH = 7.1
 """Inches: the width of a page's text."""
