@@ -11,7 +11,7 @@ from compare.edges.tracer import follow
 from compare.report.figures.beams import RESONANCES, THIRD, family_of, point_count, printed
 from compare.report.figures.catalogue import FIGURES, Figure
 from compare.report.figures.data import FigureData, Float, Series, largest
-from compare.report.tables import number
+from compare.report.tables import GAMMA, number
 from compare.stability.indicators import Function, indicator, zero
 from hill.averaging import Resonance, half_width
 
@@ -168,7 +168,7 @@ def nearest_zero(f: Function, near: float, width: float) -> float:
 
 def _printed(figure: Figure) -> list[Series]:
     """The table's forcing frequencies at its T0 and gamma: unstable, or printed with T = 0."""
-    value = figure.beam["T0"] if figure.along == "T0" else 0.1
+    value = figure.beam["T0"] if figure.along == "T0" else GAMMA
     rows = [(number(row.Omega_printed), figure.eta < row.T) for row in printed(figure)]
     series = []
     for sign, unstable in ((">", True), ("<=", False)):
