@@ -10,8 +10,8 @@ from hill.arrays import Complex, Float
 from hill.errors import LongitudinalResonance
 from hill.system import Parameter
 
-# sin(pi sigma) is known to an ulp of pi sigma; below this share of it, the undamped axial force is
-# resonant as far as rounding of Omega and omega_L can tell.
+# Omega, omega_L and their quotient are rounded, each by half an ulp, and pi sigma by one: below so
+# many ulps of it sin(pi sigma) may be zero, and the undamped axial force infinite.
 RESONANCE_ULPS = 4
 
 COMMON = (
@@ -25,7 +25,8 @@ COMMON = (
 # most over 200 beams of up to 8 modes. Near a longitudinal resonance the force adds its own.
 MATRIX_ERROR = 32.0 * 2.0**-52
 
-# One evaluation with 30 takes the time domain two minutes and a half.
+# One evaluation with so many takes the time domain 17 s of processor time, 3 s with 30; it then
+# knows P to 2e-6 and 2e-8.
 MAX_MODES = 40
 
 # Beyond it exp(pi sqrt(g)) overflows; a structure's g is below 1.

@@ -34,7 +34,8 @@ MIN_GROUP = 32
 # 0.27 compiled, with 4; one of 489 hostile systems of `benchmarks.honesty` then was 1.7 times off.
 ULPS = 12.0
 
-# Relative bound above which `monodromy` is asked, whose two runs know better.
+# Relative bound above which `monodromy` is asked, whose two runs know better: thirty times the
+# largest on the report's chart.
 REFINE_ABOVE = 1e-10
 
 

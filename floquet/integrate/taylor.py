@@ -17,8 +17,10 @@ from floquet.integrate.step_length import longest_step
 # them both take about as long for ten calls, and a build stays under 0.2 s.
 SX_OPERATIONS = 60_000
 
-# Steps in one fold, whose inputs are held side by side; and the most of them in one period.
+# Steps in one fold, whose inputs are held side by side: a step of three coordinates takes 43 us in
+# folds of 64, 35 us in folds of 1,024 and no less in longer ones.
 MAX_FOLD_STEPS = 1024
+# In one period: 35 s for three coordinates, and an answer takes two or three such runs.
 MAX_STEPS = 1_000_000
 
 

@@ -28,7 +28,8 @@ class Characteristic:
         Bound on the absolute error of each coefficient of `polynomial`, for the matrices to the
         last bit as they are given.
     data_error : float
-        What the equation's own `data_error` may add to that, to first order; 0 where it has none.
+        An estimate of what the equation's own `data_error` may add to that, to first order: .67 of
+        it at least where that was measured; 0 where it has none.
     z : (n,) complex ndarray
         The characteristic values cos 2 pi alpha (6.3.8), by descending real part; empty where
         `polynomial` is that of the multipliers.

@@ -25,7 +25,9 @@ DATA_ULPS = 2.0
 # the rows before it.
 ROW_ULPS = 2.0
 
-# Harmonics beyond the highest frequency at which the rows' inverses have become 1/m^2.
+# Harmonics beyond the highest frequency. Of the rows left out the inverses are -1/m^2; without them
+# the first order comes out .93 to 4.3 times what it is over 45 random systems of one to three
+# coordinates, and .67 times at least over 200 of one without pulsation: an estimate, no bound.
 EXTRA_HARMONICS = 6
 
 
