@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from floquet.arrays import EPS, Float
-from floquet.charpoly import characteristic_polynomial
+from floquet.charpoly import MAX_EXACT, characteristic_polynomial
 
 OVERFLOW = "the solution grows beyond what a float can hold within one period"
 
@@ -44,7 +44,8 @@ def bounded(
     """What two runs know of A, each element of which sums terms of size `scale`.
 
     Where the runs differ by chance in nothing, they may still both be off: the largest difference
-    over its scale is taken for all elements, and for all coefficients.
+    over its scale is taken for all elements, and for all coefficients. It is that of the
+    coefficients; where these are not exact, no more than that of the elements.
 
     Parameters
     ----------
@@ -69,7 +70,9 @@ def bounded(
             other, _, also = characteristic_polynomial(check, scale)
         except OverflowError:
             raise OverflowError(OVERFLOW) from None
-        apart = _share(np.abs(p - other), sensitivity)
+        apart = largest_share(np.abs(p - other), sensitivity)
+        if len(A) > MAX_EXACT:
+            apart = min(apart, largest_share(np.abs(A - check), scale))
         own = floor + ROUNDING_SAFETY * EPS * ulps
         errors = (SAFETY * apart + own) * sensitivity + rounding + also
         matrix_error = SAFETY * np.maximum(np.abs(A - check), apart * scale) + own * scale
@@ -83,7 +86,7 @@ def bounded(
     return Bounded(p, errors, matrix_error)
 
 
-def _share(difference: Float, scale: Float) -> float:
+def largest_share(difference: Float, scale: Float) -> float:
     """The largest difference over its scale, where there is one."""
     return float(np.max(np.divide(difference, scale, out=np.zeros_like(scale), where=scale > 0.0)))
 

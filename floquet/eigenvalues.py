@@ -47,17 +47,29 @@ def discs_from_matrix(A: Float, error: Float) -> Discs:
     X^-1 A' X - L can be for every A' within `error` of A. As good for eigenvalues that meet with
     eigenvectors of their own as for simple ones; useless near a defective one.
     """
+    values, apart = beside_diagonal(A, error)
+    # a norm of A bounds every eigenvalue
+    everything = 1.01 * float(np.max(np.sum(np.abs(A) + error, axis=1))) + np.abs(values)
+    if apart is None:
+        return Discs(values, everything, np.ones(A.shape, bool))
+    radius = np.minimum(np.sum(apart, axis=1), everything)
+    between = np.abs(values[:, None] - values)
+    return Discs(values, radius, connected(between <= radius[:, None] + radius))
+
+
+def beside_diagonal(A: Float, error: Float) -> tuple[Complex, Float | None]:
+    """Computed eigenvalues, and bounds on the elements of X^-1 A' X - L, where there are any.
+
+    X are the computed eigenvectors, A' is any matrix within `error` of A.
+    """
     n = len(A)
     values, X = np.linalg.eig(A)
     order = np.lexsort((values.imag, -values.real))
     values, X = values[order].astype(complex), X[:, order]
-    # a norm of A bounds every eigenvalue
-    everything = 1.01 * float(np.max(np.sum(np.abs(A) + error, axis=1)))
-    nothing = Discs(values, everything + np.abs(values), np.ones((n, n), bool))
     try:
         W = np.linalg.inv(X)
     except np.linalg.LinAlgError:
-        return nothing
+        return values, None
     rounding = 4.0 * (n + 2) * EPS
     size_W, size_X = np.abs(W), np.abs(X)
     summed = np.abs(A) @ size_X + size_X * np.abs(values)
@@ -66,11 +78,8 @@ def discs_from_matrix(A: Float, error: Float) -> Discs:
     # W is the inverse but for this much
     defect = float(np.max(np.sum(np.abs(W @ X - np.eye(n)) + rounding * (size_W @ size_X), axis=1)))
     if not defect < 0.5:
-        return nothing
-    radius = np.sum(apart, axis=1) + defect / (1.0 - defect) * np.max(np.sum(apart, axis=1))
-    radius = np.minimum(1.01 * radius, everything + np.abs(values))
-    apart = np.abs(values[:, None] - values)
-    return Discs(values, radius, connected(apart <= radius[:, None] + radius))
+        return values, None
+    return values, 1.01 * (apart + defect / (1.0 - defect) * np.max(apart, axis=0))
 
 
 def discs_from_polynomial(values: Complex, p: Float, errors: Float) -> Discs:

@@ -99,27 +99,25 @@ def growth_from_multipliers(families: Sequence[LogDiscs], period: float, mean: f
     return _growth(value, least, most, period, 0.0)
 
 
-def logarithm_error(families: Sequence[Discs]) -> Float:
-    """How far ln mu of each z = cosh ln mu is from a true one at most; all have the same centres.
+def logarithm_error(z: Complex, families: Sequence[Discs]) -> Float:
+    """How far ln mu of each z = cosh ln mu is from a true one at most.
 
     cosh a - cosh b = 2 sinh((a + b)/2) sinh((a - b)/2), and of a and -a, that is nearer for which
     the second factor is the smaller one: |sinh((a - b)/2)|^2 <= r/2. Away from z = 1 and z = -1 the
     slope (z^2 - 1)^(-1/2), the largest within the disc, says less.
     """
-    off = np.full(len(families[0].centre), np.inf)
+    r = np.full(len(z), np.inf)
     for discs in families:
-        z, r = discs.centre, discs.radius
+        c = discs.centre
         # a region has as many as it has discs, but they may be in any of them
-        reach = np.abs(z[:, None] - z) + r
-        r = np.max(np.where(discs.together, reach, 0.0), axis=1)
-        inner = (np.abs(z - 1.0) - r) * (np.abs(z + 1.0) - r)
-        slope = np.where((np.abs(z - 1.0) > r) & (np.abs(z + 1.0) > r), inner, 0.0)
-        with np.errstate(divide="ignore"):
-            straight = np.where(slope > 0.0, r / np.sqrt(slope), np.inf)
-        half = np.sqrt(0.5 * r)
-        bent = np.where(half < 1.0, 2.0 * np.arcsin(np.minimum(half, 1.0)), np.inf)
-        off = np.minimum(off, np.minimum(straight, bent))
-    return off + 8.0 * EPS
+        region = np.where(discs.together, np.abs(c[:, None] - c) + discs.radius, 0.0).max(axis=1)
+        r = np.minimum(r, np.min(np.abs(z[:, None] - c) + region, axis=1))
+    clear = (np.abs(z - 1.0) > r) & (np.abs(z + 1.0) > r)
+    inner = np.where(clear, (np.abs(z - 1.0) - r) * (np.abs(z + 1.0) - r), np.inf)
+    straight = np.where(clear, r / np.sqrt(inner), np.inf)
+    half = np.sqrt(0.5 * r)
+    bent = np.where(half < 1.0, 2.0 * np.arcsin(np.minimum(half, 1.0)), np.inf)
+    return np.asarray(np.minimum(straight, bent) + 8.0 * EPS)
 
 
 def logarithms(families: Sequence[LogDiscs]) -> tuple[Complex, Float]:

@@ -11,18 +11,31 @@ Neither holds for a general equation, nor for a damping matrix: `floquet.general
 period is integrated too where the solution grows so much that U cannot be inverted well.
 """
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from floquet.accuracy import OVERFLOW, Bounded, bounded
-from floquet.arrays import EPS, Complex, Float
+from floquet.arrays import Complex, Float
 from floquet.data_errors import data_share, subtraction_error
 from floquet.eigenvalues import Discs, discs_from_matrix, discs_from_polynomial, sorted_eigenvalues
+from floquet.general.mode_bounds import discs_one_by_one
 from floquet.general.period import general_monodromy
 from floquet.growth import growth_from_z, logarithm_error
-from floquet.integrate.methods import METHODS
-from floquet.integrate.ode import Parameters, parameter_values, shape, terms
+from floquet.integrate.methods import METHODS, Method
+from floquet.integrate.normal_form import normal_form
+from floquet.integrate.ode import parameter_values, shape, terms
 from floquet.integrate.step_length import fastest_rate, perron_root
 from floquet.integrate.taylor import Taylor
+from floquet.many import (
+    MAX_FEW,
+    ULPS,
+    checked,
+    integrated,
+    rounded,
+    second_half_rounding,
+    without_damping,
+)
 from floquet.result import Monodromy
 from hill import HillEquation, PeriodicEquation
 
@@ -64,47 +77,24 @@ def monodromy(equation: HillEquation | PeriodicEquation, *, method: str = "taylo
     if isinstance(equation, PeriodicEquation):
         return general_monodromy(equation, method)
     if np.ndim(equation.eta) > 0:
-        # gamma G is rounded, and so is what it may be added to
-        largest = abs(equation.gamma) * np.abs(equation.G) + sum(map(np.abs, equation.H))
-        return general_monodromy(equation.general(), method, rounded=EPS * largest)
-    size, period = shape(equation), 2.0 * np.pi / equation.Omega
-    plain = parameter_values(equation)
-    if how.diverges:
-        _finite(Taylor()(plain, size, period))
-    eta, n = equation.damping, size.n
+        return general_monodromy(equation.general(), method, rounded=rounded(equation))
+    period, eta, n = equation.period, equation.damping, equation.n
     if abs(eta) * 0.5 * period > MAX_DECAY_EXPONENT:
         raise OverflowError(
             f"eta = {eta:g}, Omega = {equation.Omega:g}: the decay over one period, "
             "exp(-pi eta/Omega), exceeds what a float can hold"
         )
-    undamped = parameter_values(equation, undamped=True)
-    if 0.5 * eta * period > how.most_decay:
-        whole = _damp(_finite(how.check(undamped, size, period)), eta, period)
-    else:
-        whole = _finite(how.check(plain, size, period))
-    U = _finite(how.run(undamped, size, 0.5 * period))
-    try:
-        Phi_u, scale = second_half(U)
-        half = bool(np.all(np.isfinite(scale)) and perron_root(scale) < MAX_TERM_GROWTH)
-    except np.linalg.LinAlgError:  # singular to rounding
-        scale, half = np.zeros_like(U), False
-    if not half:
-        Phi_u = _finite(how.run(undamped, size, period))
-        # growth in the first half may not show at the end
-        scale = np.maximum(np.abs(Phi_u), np.where(np.isfinite(scale), scale, 0.0))
-        # nor an amplitude whose phase is near a zero, of columns or of rows
-        fastest = fastest_rate(terms(undamped, size), undamped.C)
-        scale[:n, :n] = np.maximum(scale[:n, :n], np.abs(Phi_u[n:, :n]) / fastest)
-        scale[:n, :n] = np.maximum(scale[:n, :n], np.abs(Phi_u[:n, n:]) * fastest)
+    many = n > MAX_FEW and method == "taylor"
+    runs = _of_many(equation) if many else _of_few(equation, how)
+    Phi_u, whole = runs.Phi_u, runs.whole
     A = Phi_u[:n, :n]
-    ulps = 8.0 + fastest_rate(terms(undamped, size), undamped.C) * period
     found = bounded(
         A,
         _undamp(whole, eta, period)[:n, :n],
-        scale[:n, :n],
-        ulps,
+        runs.rounding[:n, :n],
+        runs.ulps,
         how.floor,
-        subtraction_error(equation, scale) if eta else None,
+        subtraction_error(equation, runs.scale) if eta else None,
     )
     z = sorted_eigenvalues(A)
     root = np.sqrt(z - 1.0) * np.sqrt(z + 1.0)
@@ -115,7 +105,7 @@ def monodromy(equation: HillEquation | PeriodicEquation, *, method: str = "taylo
     decay = np.exp(-0.5 * eta * period)
     discs = _discs(z, A, found)
     growth = growth_from_z(discs, found.p, found.errors, period, eta)
-    off = logarithm_error(discs)
+    off = logarithm_error(z, discs)
     return Monodromy(
         matrix=_damp(Phi_u, eta, period),
         multipliers=decay * pairs,
@@ -129,11 +119,82 @@ def monodromy(equation: HillEquation | PeriodicEquation, *, method: str = "taylo
         T=growth.T,
         T_error=growth.T_error,
         verdict=growth.verdict,
-        liouville_defect=_liouville(whole, plain, period),
+        liouville_defect=_liouville(whole, n * eta * period),
         reversibility_defect=_reversibility(_undamp(whole, eta, period)),
         method=method,
-        half_period=half,
+        half_period=runs.half,
     )
+
+
+@dataclass(frozen=True, eq=False)
+class _Runs:
+    """The period by a method, in u, and by its check, in q.
+
+    Attributes
+    ----------
+    Phi_u, whole : (2n, 2n) ndarray
+    scale : (2n, 2n) ndarray
+        Size of the terms that Phi_u sums.
+    rounding : (2n, 2n) ndarray
+        What rounding may do to Phi_u, over so many `ulps`.
+    ulps : float
+    half : bool
+        Whether Phi_u is made of half the period.
+    """
+
+    Phi_u: Float
+    whole: Float
+    scale: Float
+    rounding: Float
+    ulps: float
+    half: bool
+
+
+def _of_few(equation: HillEquation, how: Method) -> _Runs:
+    size, period, eta, n = shape(equation), equation.period, equation.damping, equation.n
+    plain = parameter_values(equation)
+    if how.diverges:
+        _finite(Taylor()(plain, size, period))
+    undamped = parameter_values(equation, undamped=True)
+    if 0.5 * eta * period > how.most_decay:
+        whole = _damp(_finite(how.check(undamped, size, period)), eta, period)
+    else:
+        whole = _finite(how.check(plain, size, period))
+    U = _finite(how.run(undamped, size, 0.5 * period))
+    Phi_u, scale, half = _from_half(U)
+    fastest = fastest_rate(terms(undamped, size), undamped.C)
+    if not half:
+        Phi_u = _finite(how.run(undamped, size, period))
+        # growth in the first half may not show at the end
+        scale = np.maximum(np.abs(Phi_u), np.where(np.isfinite(scale), scale, 0.0))
+        # nor an amplitude whose phase is near a zero, of columns or of rows
+        scale[:n, :n] = np.maximum(scale[:n, :n], np.abs(Phi_u[n:, :n]) / fastest)
+        scale[:n, :n] = np.maximum(scale[:n, :n], np.abs(Phi_u[:n, n:]) * fastest)
+    return _Runs(Phi_u, whole, scale, scale, 8.0 + fastest * period, half)
+
+
+def _of_many(equation: HillEquation) -> _Runs:
+    """In parts, of which rounding is known element by element."""
+    form = without_damping(equation)
+    whole = checked(normal_form(equation.general()))
+    U, rounding = integrated(form, half=True)
+    Phi_u, scale, half = _from_half(U)
+    if half:
+        rounding = second_half_rounding(U, Phi_u, rounding)
+    else:
+        Phi_u, rounding = integrated(form)
+        scale = rounding
+    return _Runs(Phi_u, whole, scale, rounding, ULPS, half)
+
+
+def _from_half(U: Float) -> tuple[Float, Float, bool]:
+    """Phi and the size of its terms from half a period, and whether it is to be used."""
+    try:
+        Phi_u, scale = second_half(U)
+        half = bool(np.all(np.isfinite(scale)) and perron_root(scale) < MAX_TERM_GROWTH)
+    except np.linalg.LinAlgError:  # singular to rounding
+        return U, np.zeros_like(U), False
+    return Phi_u, scale, half
 
 
 def second_half(U: Float) -> tuple[Float, Float]:
@@ -144,10 +205,14 @@ def second_half(U: Float) -> tuple[Float, Float]:
     return (S[:, None] * inverse * S) @ U, np.abs(inverse) @ np.abs(U)
 
 
-def _discs(values: Complex, A: Float, found: Bounded) -> tuple[Discs, Discs]:
+def _discs(values: Complex, A: Float, found: Bounded) -> list[Discs]:
     """Where the true eigenvalues of A are, by its polynomial and by itself."""
-    by_polynomial = discs_from_polynomial(values, found.p, found.errors)
-    return by_polynomial, discs_from_matrix(A, found.matrix_error)
+    known = [
+        discs_from_polynomial(values, found.p, found.errors),
+        discs_from_matrix(A, found.matrix_error),
+    ]
+    alone = discs_one_by_one(A, found.matrix_error) if len(A) > MAX_FEW else None
+    return known if alone is None else [*known, alone]
 
 
 def _damp(Phi_u: Float, eta: float, period: float) -> Float:
@@ -165,9 +230,9 @@ def _undamp(Phi: Float, eta: float, period: float) -> Float:
     return _damp(Phi, -eta, period)
 
 
-def _liouville(Phi: Float, p: Parameters, period: float) -> float:
+def _liouville(Phi: Float, decay: float) -> float:
     sign, log_det = np.linalg.slogdet(Phi)
-    log_ratio = float(log_det + period * np.trace(p.C))
+    log_ratio = float(log_det + decay)
     return float("inf") if log_ratio > 700.0 else float(np.abs(sign * np.exp(log_ratio) - 1.0))
 
 

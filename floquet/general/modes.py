@@ -13,7 +13,7 @@ import numpy as np
 
 from floquet.arrays import EPS, Complex, Float
 from floquet.general.mode_bounds import by_rows, nearly_diagonal, one_by_one
-from floquet.growth import LogDiscs
+from floquet.growth import TINY, LogDiscs
 from floquet.products import grouped
 
 # Factors are multiplied together while the singular values of what they make are no further apart:
@@ -89,8 +89,7 @@ def _settled(factors: Float) -> tuple[Float, list[int]]:
         last, growth = start, np.zeros(m)
         for k in range(p):
             last, R = np.linalg.qr(factors[k] @ last)
-            with np.errstate(divide="ignore"):
-                growth += np.log(np.abs(np.diag(R)))
+            growth += np.log(np.maximum(np.abs(np.diag(R)), TINY))
             Q[k] = last
         turned = np.abs(start.T @ last)
         cuts = [i for i in range(1, m) if np.max(turned[i:, :i]) < SETTLED * m]

@@ -9,11 +9,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from floquet.accuracy import OVERFLOW, ROUNDING_SAFETY, SAFETY, Bounded, bounded
+from floquet.accuracy import OVERFLOW, ROUNDING_SAFETY, SAFETY, Bounded, bounded, largest_share
 from floquet.arrays import EPS, Float
 from floquet.charpoly import beyond_first_order, characteristic_polynomial
 from floquet.eigenvalues import discs_from_matrix, discs_from_polynomial, sorted_eigenvalues
-from floquet.general.modes import condition, merged, periodic_discs
+from floquet.general.mode_bounds import discs_one_by_one
+from floquet.general.modes import merged, periodic_discs
 from floquet.growth import TINY, LogDiscs, growth_from_multipliers, logarithms
 from floquet.integrate.methods import METHODS
 from floquet.integrate.normal_form import NormalForm, normal_form
@@ -28,8 +29,8 @@ STEPS, CHECK_STEPS = 3, 2
 # The same where parts are as short as a step, so that none loses what decays.
 SHORT_STEPS, SHORT_CHECK_STEPS = 2, 3
 
-# The product's smallest multipliers are known to this many ulps at worst; beyond, the parts' own.
-MAX_CONDITION = 1e4
+# The smallest multipliers are known to about this many ulps by the product; beyond, by the parts.
+MAX_SPREAD = 1e4
 
 # Rounding of a step, in ulps of the moduli summed.
 ULPS = 1.5
@@ -37,16 +38,20 @@ ULPS = 1.5
 
 @dataclass(frozen=True, eq=False)
 class _Run:
-    """What a method and its check make of the parts, and of their product; bounds as in `Parts`."""
+    """What a method and its check make of the parts, and of their product; bounds as in `Parts`.
+
+    `short` parts are known to a small part of their smallest singular values.
+    """
 
     grid: Grid
+    short: bool
     parts: Float
     check: Float
     parts_rounding: Float
     product: Float
     product_check: Float
     rounding: Float
-    data: Float
+    data: Float | None
 
 
 def general_monodromy(
@@ -55,9 +60,10 @@ def general_monodromy(
     """As `floquet.monodromy`; `rounded` is what K is off already."""
     form = normal_form(equation, rounded)
     steps = PartsTaylor().steps(form)
-    run = _run(form, method, parts_needed(steps, STEPS), STEPS, CHECK_STEPS)
-    decays = not condition(run.product) < MAX_CONDITION
-    if decays:
+    parts, times = parts_needed(steps, STEPS)
+    run = _run(form, method, parts, STEPS * times, CHECK_STEPS * times)
+    values = sorted_eigenvalues(run.product)
+    if not np.min(np.abs(values)) * MAX_SPREAD > np.max(np.abs(values)):
         run = _run(form, method, steps, SHORT_STEPS, SHORT_CHECK_STEPS)
     floor = METHODS[method].parts_floor
     found = bounded(run.product, run.product_check, run.rounding, ULPS, floor)
@@ -65,7 +71,7 @@ def general_monodromy(
     # a coefficient that underflows is not known to be 0
     further[1:] += TINY
     found = replace(found, errors=found.errors + further)
-    families = _families(run, found, floor, decays=decays)
+    families = _families(run, found, floor)
     m = len(run.product)
     growth = growth_from_multipliers(families, form.period, form.period * form.trace / m)
     value, off = logarithms(families)
@@ -98,7 +104,8 @@ def _run(form: NormalForm, method: str, count: int, steps: int, check_steps: int
     grid = Grid.of(form, count, steps)
     with np.errstate(over="ignore", invalid="ignore"):
         own = PartsTaylor().bounded(form, grid)
-        product, rounding, data = chain(own.matrices, own.rounding, own.data)
+        given = [x for x in (own.rounding, own.data) if x is not None]
+        product, rounding, *rest = chain(own.matrices, *given)
     # not every method tells by itself that the solution is beyond a float
     if not all(np.all(np.isfinite(x)) for x in (product, rounding)):
         raise OverflowError(OVERFLOW)
@@ -106,29 +113,42 @@ def _run(form: NormalForm, method: str, count: int, steps: int, check_steps: int
     if how.parts != PartsTaylor():
         parts = how.parts(form, grid)
         (product,) = chain(parts)
-    check = how.parts_check(form, Grid(count, check_steps, grid.unit))
+    check = how.parts_check(form, grid.again(check_steps))
     (product_check,) = chain(check)
-    return _Run(grid, parts, check, own.rounding, product, product_check, rounding, data)
+    return _Run(
+        grid=grid,
+        short=steps == SHORT_STEPS,
+        parts=parts,
+        check=check,
+        parts_rounding=own.rounding,
+        product=product,
+        product_check=product_check,
+        rounding=rounding,
+        data=rest[0] if rest else None,
+    )
 
 
-def _families(run: _Run, found: Bounded, floor: float, *, decays: bool) -> list[LogDiscs]:
+def _families(run: _Run, found: Bounded, floor: float) -> list[LogDiscs]:
     """Sets of discs, each of which holds all multipliers; the first are the best where possible."""
-    by_polynomial = discs_from_polynomial(sorted_eigenvalues(run.product), found.p, found.errors)
-    if not decays:
-        by_matrix = discs_from_matrix(run.product, found.matrix_error)
-        return [LogDiscs.of(by_matrix), LogDiscs.of(by_polynomial)]
-    apart = np.abs(run.parts - run.check)
-    # what is 0 to the last bit in both runs has no rounding either
-    none, some = np.zeros_like(apart), run.parts_rounding > 0.0
-    share = float(np.max(np.divide(apart, run.parts_rounding, out=none, where=some)))
-    own = floor + ROUNDING_SAFETY * EPS * ULPS
-    errors = SAFETY * np.maximum(apart, share * run.parts_rounding) + own * run.parts_rounding
-    return [*periodic_discs(*merged(run.parts, errors)), LogDiscs.of(by_polynomial)]
+    values = sorted_eigenvalues(run.product)
+    known = [
+        discs_one_by_one(run.product, found.matrix_error),
+        discs_from_matrix(run.product, found.matrix_error),
+        discs_from_polynomial(values, found.p, found.errors),
+    ]
+    families = [LogDiscs.of(discs) for discs in known if discs is not None]
+    if run.short:
+        apart = np.abs(run.parts - run.check)
+        of_all = largest_share(apart, run.parts_rounding) * run.parts_rounding
+        own = floor + ROUNDING_SAFETY * EPS * ULPS
+        errors = SAFETY * np.maximum(apart, of_all) + own * run.parts_rounding
+        families[:0] = periodic_discs(*merged(run.parts, errors))
+    return families
 
 
 def _data(run: _Run) -> float:
     """What the errors of the equation's numbers may move P by, to first order."""
-    if not np.any(run.data):
+    if run.data is None:
         return 0.0
     return float(np.max(characteristic_polynomial(run.product, run.data)[1]))
 

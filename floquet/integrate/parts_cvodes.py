@@ -34,8 +34,8 @@ class PartsCvodes:
         harmonics = np.array(form.harmonics, int)
         turn = 2.0 * np.pi / grid.parts * harmonics
         integrator = _integrator(layout, self.tolerance)
-        found = np.empty((grid.parts, m, m))
-        for k in range(grid.parts):
+        found = np.empty((grid.first, m, m))
+        for k in range(grid.first):
             phase = 2.0 * np.pi / grid.parts * (harmonics * k % grid.parts)
             matrices = (ca.vec(ca.DM(np.hstack(list(x)))) for x in shared)
             packed = ca.vertcat(h, turn, phase, *matrices)

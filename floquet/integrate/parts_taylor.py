@@ -2,19 +2,17 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 from math import ceil
-from typing import Any
 
-import casadi as ca
 import numpy as np
 
 from floquet.arrays import EPS, Float
-from floquet.integrate import recurrence
-from floquet.integrate.normal_form import Harmonic, Layout, NormalForm
+from floquet.integrate.normal_form import Harmonic, NormalForm
 from floquet.integrate.parts import Grid, Parts
+from floquet.integrate.phases import condensed
 from floquet.integrate.step_length import longest_step
-from floquet.integrate.taylor import MAX_STEPS, SX_OPERATIONS
+from floquet.integrate.steps import Steps
+from floquet.integrate.taylor import MAX_STEPS
 from floquet.products import chain
 
 # Numbers held side by side in one call.
@@ -62,36 +60,34 @@ class PartsTaylor:
 
     def bounded(self, form: NormalForm, grid: Grid) -> Parts:
         """The same with the size of what its errors are made of."""
-        layout, unit, m = form.layout, grid.unit, form.layout.order
-        total = grid.parts * grid.steps
-        h = form.period / total / unit
-        stiffness = form.stiffness * (unit if layout.first_order else unit * unit)
-        given = [np.hstack(list(stiffness))]
-        if layout.damped:
-            given.append(np.hstack(list(form.damping * unit)))
-        turn = 2.0 * np.pi / total * np.array(form.harmonics, float)
-        scales = step_scales(form, unit, h)
-        chunk = max(CHUNK_NUMBERS // (m * m * grid.steps), 1)
+        m, total = form.layout.order, grid.parts * grid.steps
+        step = Steps(form, self.order, total, grid.unit)
+        scales = step_scales(form, grid.unit, step.h)
+        stretch, length, scales = condensed(
+            step, scales, total, grid.steps, grid.first * grid.steps
+        )
+        each = grid.steps // length
+        chunk = max(CHUNK_NUMBERS // (m * m * each), 1)
         found = []
-        for first in range(0, grid.parts, chunk):
-            count = min(chunk, grid.parts - first) * grid.steps
-            at = first * grid.steps + np.arange(count)
-            # in whole numbers the phase of a high harmonic loses nothing
-            turns = (np.outer(np.array(form.harmonics, int), at) + total // 2) % total - total // 2
-            phase = 2.0 * np.pi / total * turns
-            wide = _mapped(layout, self.order, count)(h, turn, *given, np.cos(phase), np.sin(phase))
-            each = np.asarray(wide).reshape(m, -1, grid.steps, m).transpose(2, 1, 0, 3)
-            found.append(chain(each, *(np.broadcast_to(scale, each.shape) for scale in scales)))
-        return Parts(*(np.concatenate(pieces) for pieces in zip(*found, strict=True)))
+        for first in range(0, grid.first, chunk):
+            count = min(chunk, grid.first - first) * each
+            factors = stretch(first * each + np.arange(count), total // length)
+            factors = np.moveaxis(factors.reshape(-1, each, m, m), 1, 0)
+            found.append(chain(factors, *(np.broadcast_to(x, factors.shape) for x in scales)))
+        matrices, rounding, *data = (np.concatenate(x) for x in zip(*found, strict=True))
+        return Parts(matrices, rounding, data[0] if data else None)
 
 
-def step_scales(form: NormalForm, unit: float, h: float) -> tuple[Float, Float]:
-    """What rounding may do to a step, in ulps, and the data's own errors."""
+def step_scales(form: NormalForm, unit: float, h: float) -> list[Float]:
+    """What rounding may do to a step, in ulps, and the data's own errors, where there are any."""
     # no step sums more than the exponential of the moduli
     most = _exponential(form.companion(form.largest, unit) * h)
     rounded = form.companion(form.rounded, unit, change=True) * (h / EPS)
     data = form.companion(form.data, unit, change=True) * h
-    return most + most @ rounded @ most, most @ data @ most
+    scales: list[Float] = [most + most @ rounded @ most]
+    if np.any(data):
+        scales.append(most @ data @ most)
+    return scales
 
 
 def terms(form: NormalForm) -> tuple[list[tuple[Float, float]], list[tuple[Float, float]]]:
@@ -118,44 +114,3 @@ def _exponential(matrix: Float) -> Float:
         term = term @ matrix / k
         total = total + term
     return total
-
-
-@lru_cache(maxsize=256)
-def _mapped(layout: Layout, order: int, count: int) -> Any:
-    """`count` steps side by side; only the phases differ."""
-    shared = 4 if layout.damped else 3
-    return _step(layout, order).map("steps", "serial", count, list(range(shared)), [])
-
-
-@lru_cache(maxsize=64)
-def _step(layout: Layout, order: int) -> Any:
-    """A step from the identity, in units of time in which its length is `h`."""
-    n, m = layout.n, layout.order
-    pulsating = 2 + len(layout.stiffness) + len(layout.damping)
-    operations = n * m * order * (order + 2 * m) * pulsating // 2
-    kind: Any = ca.SX if operations < SX_OPERATIONS else ca.MX
-    h, turn = kind.sym("h"), kind.sym("turn", layout.harmonics)
-    c, s = kind.sym("c", layout.harmonics), kind.sym("s", layout.harmonics)
-
-    def system(matrix: Any, harmonics: Sequence[Harmonic]) -> tuple[Any, list[recurrence.Term]]:
-        mean, *parts = ca.horzsplit(matrix, n)
-        found = []
-        for part, (k, is_sine) in zip(parts, harmonics, strict=True):
-            series = recurrence.sine if is_sine else recurrence.cosine
-            found.append((part, series(c[k], s[k], turn[k], order)))
-        return mean, found
-
-    K = kind.sym("K", n, n * (1 + len(layout.stiffness)))
-    stiffness, given = system(K, layout.stiffness), [h, turn, K]
-    damping = None
-    if layout.damped:
-        C = kind.sym("C", n, n * (1 + len(layout.damping)))
-        damping = system(C, layout.damping)
-        given.append(C)
-    start = kind(ca.DM(np.eye(m)))
-    if layout.first_order:
-        end = recurrence.first_order(start, h, order, stiffness)
-    else:
-        Q, V = start[:n, :], start[n:, :]
-        end = ca.vertcat(*recurrence.second_order(Q, V, h, order, stiffness, damping))
-    return ca.Function("step", [*given, c, s], [ca.densify(end)])
