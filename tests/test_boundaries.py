@@ -19,8 +19,8 @@ from compare.stability.indicators import (
     indicator,
     interpolate,
     interpolate_in_Omega,
-    roots,
 )
+from compare.stability.roots import companion_roots
 from hill import HillEquation, UniformBeam, characteristic
 from hill.averaging import Resonance, first_order, half_width, modal
 
@@ -211,7 +211,7 @@ def test_indicators() -> None:
     stable, above, below = [1.0, 0.0, -0.25], [1.0, -1.7, 0.6], [1.0, 3.1, 2.2]
     P = np.array([stable, above, below])
     Omega = np.ones(3)
-    assert np.allclose(np.sort(roots(P).real), [[-0.5, 0.5], [0.5, 1.2], [-2.0, -1.1]])
+    assert np.allclose(np.sort(companion_roots(P).real), [[-0.5, 0.5], [0.5, 1.2], [-2.0, -1.1]])
     assert np.allclose(indicator("+1", P, Omega), [0.5, -0.2, 2.1])
     # both z below -1: P(-1) > 0 as in the stable case, and yet unstable
     assert np.allclose(indicator("-1", P, Omega), [0.5, 1.5, -1.0])

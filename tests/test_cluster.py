@@ -149,7 +149,7 @@ def test_one_that_stops_leaves_nothing_behind(client: Any, local: Any) -> None:
 def test_a_cluster_by_its_address(local: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     with connect(local.scheduler_address) as run:
         assert list(run(slow, range(3))) == [0, 1, 2]
-    monkeypatch.setattr(cluster, "PATIENCE", 0.2)
+    monkeypatch.setattr(cluster, "CONNECT_TIMEOUT", 0.2)
     for address in ("tcp://127.0.0.1:1", "nonsense"):
         says = f"^cluster = '{address}': no scheduler"
         with pytest.raises(ValueError, match=says), connect(address):

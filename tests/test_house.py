@@ -254,3 +254,12 @@ def test_what_is_remembered_cannot_be_written_to(cached: str, given: tuple[float
     found = arrays_of(named(cached)(*given))
     assert found
     assert not any(array.flags.writeable for array in found)
+
+
+@pytest.mark.parametrize("name", sorted(dotted(*module) for module in MODULES))
+def test_a_module_is_had_by_its_name(name: str) -> None:
+    """No function of a package is called like a module in it: ``import name`` gives the module."""
+    before, _, last = name.rpartition(".")
+    if before:
+        module = import_module(name)
+        assert getattr(import_module(before), last) is module

@@ -17,7 +17,7 @@ import compare.commands.sensitivity as command
 from benchmarks.honesty.slopes import slopes
 from compare.__main__ import main
 from floquet import Derivatives, beam_sensitivities, monodromy, sensitivities
-from floquet.sensitivity.derivative import derivative
+from floquet.sensitivity.derivative import differentiate
 from floquet.sensitivity.system import BOUNDS, LINEAR, matrix_derivatives
 from hill import HillEquation, SteppedBeam, UniformBeam, characteristic
 
@@ -350,11 +350,11 @@ def test_limits_of_a_beam_s_parameters() -> None:
 
 
 def test_a_pole_inside_the_first_interval_is_got_round() -> None:
-    found, error = derivative(lambda x: np.array([[[1.0 / (x - 1.3)]]]), 1.0, 0.0, np.inf, 0.5)
+    found, error = differentiate(lambda x: np.array([[[1.0 / (x - 1.3)]]]), 1.0, 0.0, np.inf, 0.5)
     true = -1.0 / 0.09
     assert abs(found[0, 0, 0] - true) <= error[0] < 1e-10
     with pytest.raises(ValueError, match="no interval"):
-        derivative(lambda x: np.array([[[abs(x - 1.0)]]]), 1.0, 0.0, np.inf, 0.5)
+        differentiate(lambda x: np.array([[[abs(x - 1.0)]]]), 1.0, 0.0, np.inf, 0.5)
 
 
 # ---- the command ---------------------------------------------------------------------------------

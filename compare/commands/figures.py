@@ -5,7 +5,7 @@ from functools import partial
 from pathlib import Path
 
 from compare.commands.terminal import progress
-from compare.jobs.workers import ALL, mapper
+from compare.jobs.workers import ALL_CORES, mapper
 from compare.output import check_writable, write_whole
 from compare.report.figures.catalogue import FIGURES
 from compare.report.figures.compute import compute, named, tasks
@@ -46,7 +46,7 @@ def configure(p: argparse.ArgumentParser) -> None:
     p.add_argument(
         "--workers",
         type=int,
-        default=ALL,
+        default=ALL_CORES,
         metavar="N",
         help="processes, -1 for one a core (default)",
     )

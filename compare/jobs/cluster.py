@@ -16,7 +16,7 @@ from compare.jobs.workers import MapLike, WorkersError
 if TYPE_CHECKING:
     from distributed import Client
 
-PATIENCE = 10.0
+CONNECT_TIMEOUT = 10.0
 """Seconds to wait for a scheduler to answer."""
 
 
@@ -65,7 +65,7 @@ def connect(address: str) -> Iterator[MapLike]:
     # what Dask has to say of a lost connection is said here, in one line
     logging.getLogger("distributed").setLevel(logging.CRITICAL)
     try:
-        client = Client(address, timeout=PATIENCE, set_as_default=False)
+        client = Client(address, timeout=CONNECT_TIMEOUT, set_as_default=False)
     except (OSError, ValueError):
         raise ValueError(
             f"cluster = {address!r}: no scheduler answers; must be like tcp://host:8786"

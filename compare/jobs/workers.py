@@ -16,7 +16,7 @@ from hill import checks
 MapLike = Callable[[Callable[[Any], Any], Iterable[Any]], Iterable[Any]]
 """A function that maps like `map` and keeps the order."""
 
-ALL = -1
+ALL_CORES = -1
 """As SciPy says "all cores"."""
 
 # As many processes as cores leave nothing for BLAS threads to do but wait for each other.
@@ -55,7 +55,7 @@ def mapper(workers: int | MapLike, chunk: int = 1) -> Iterator[MapLike]:
             f"workers = {kind}: must be a number, or a function that maps like map, such as an "
             "executor's .map or compare.over(client)"
         )
-    count = cores() if workers == ALL else checks.count("workers", workers, least=1)
+    count = cores() if workers == ALL_CORES else checks.count("workers", workers, least=1)
     if count == 1:
         yield map
         return

@@ -15,7 +15,7 @@ from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 from scipy.optimize import brentq
 
-from compare.stability.roots import log_R, roots
+from compare.stability.roots import companion_roots, log_R
 
 Complex = NDArray[np.complexfloating[Any]]
 Float = NDArray[np.floating[Any]]
@@ -94,7 +94,7 @@ def interpolate_in_Omega(P: Function, lo: float, hi: float, tail: float = TAIL) 
 
 def growth(P: Float, Omega: Float | float, eta: float = 0.0) -> Float:
     """T of (7.1.1) for many P at once, shape (k, n + 1)."""
-    return np.asarray(Omega / np.pi * log_R(roots(P)).max(axis=-1) - eta)
+    return np.asarray(Omega / np.pi * log_R(companion_roots(P)).max(axis=-1) - eta)
 
 
 def indicator(kind: str, P: Float, Omega: Float, eta: float = 0.0) -> Float:
@@ -113,7 +113,7 @@ def indicator(kind: str, P: Float, Omega: Float, eta: float = 0.0) -> Float:
     Omega : (k,) ndarray
     eta : float, optional
     """
-    z = roots(P)
+    z = companion_roots(P)
     if kind == "+1":
         return np.asarray(np.cosh(np.pi * eta / Omega) - z.real.max(axis=1))
     if kind == "-1":
@@ -147,7 +147,7 @@ def edge_function(kind: str, P: Float, Omega: Float, eta: float | Float = 0.0) -
         for coefficient in P.T:
             value = value * at + coefficient
         return np.asarray(value)
-    z = roots(P)
+    z = companion_roots(P)
     i, j = np.triu_indices(z.shape[1], 1)
     x, y2 = 0.5 * (z[:, i] + z[:, j]), -0.25 * (z[:, i] - z[:, j]) ** 2
     return np.asarray(np.prod((s / c)[:, None] ** 2 * x**2 + y2 - s[:, None] ** 2, axis=1).real)

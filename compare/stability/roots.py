@@ -46,10 +46,10 @@ def _growth(p: Float) -> Float:
         lone = most_isolated_root(a, b, c)
         result[grows] = np.maximum(_real(lone), _pair(a + lone, b + lone * (a + lone)))
         return result
-    return np.asarray(log_R(roots(p.T)).max(axis=1))
+    return np.asarray(log_R(companion_roots(p.T)).max(axis=1))
 
 
-def roots(polynomials: Float) -> Complex:
+def companion_roots(polynomials: Float) -> Complex:
     """All roots of monic polynomials (k, n + 1), (k, n): eigenvalues of companion matrices."""
     n = polynomials.shape[1] - 1
     companion = np.zeros((len(polynomials), n, n))

@@ -21,7 +21,7 @@ CONVERGED = 1e-6
 ULPS = 4.0
 
 
-def derivative(
+def differentiate(
     f: Callable[[float], Float], x: float, low: float, high: float, width: float
 ) -> tuple[Float, Float]:
     """Derivative at `x` of matrices side by side, and a bound on the error of each matrix.

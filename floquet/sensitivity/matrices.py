@@ -14,7 +14,7 @@ from floquet.arrays import Float
 from floquet.integrate.ode import parameter_values, shape
 from floquet.integrate.taylor import Taylor
 from floquet.period import second_half
-from floquet.sensitivity.tape import Gradient, Tape, tape
+from floquet.sensitivity.tape import Gradient, Tape, record
 from hill import HillEquation
 
 Pull = Callable[[Float], tuple[Float, Float]]
@@ -92,7 +92,7 @@ def multipliers(equation: HillEquation, method: Taylor) -> MatrixGradient:
 
 def _tape(equation: HillEquation, method: Taylor, share: float, undamped: bool = False) -> Tape:
     p = parameter_values(equation, undamped=undamped)
-    return tape(method, p, shape(equation), share * 2.0 * np.pi / equation.Omega)
+    return record(method, p, shape(equation), share * 2.0 * np.pi / equation.Omega)
 
 
 def _corner(left: Float, right: Float | None = None) -> Float:

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from floquet.sensitivity.derivative import derivative
+from floquet.sensitivity.derivative import differentiate
 from floquet.sensitivity.equation import Derivatives, sensitivities
 from floquet.weak_form import galerkin
 from hill import SteppedBeam, UniformBeam
@@ -140,7 +140,7 @@ def matrix_derivatives(beam: Beam, Omega: float, name: str) -> tuple[Float, Floa
         low, high = BOUNDS.get(name, (0.0, inf))
         width = 0.5 if name in BOUNDS else 0.5 * value
         try:
-            found, error = derivative(matrices, value, low, high, width)
+            found, error = differentiate(matrices, value, low, high, width)
         except ValueError:
             raise ValueError(
                 f"{name} = {value:g}: is too close to where F or G is singular to differentiate"

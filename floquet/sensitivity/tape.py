@@ -86,7 +86,7 @@ class Tape:
         return _gradient(totals), _gradient(moduli)
 
 
-def tape(method: Taylor, p: Parameters, size: Shape, time: float) -> Tape:
+def record(method: Taylor, p: Parameters, size: Shape, time: float) -> Tape:
     """Integrate over `time` with the steps that `method` itself takes."""
     needed = ceil(time / longest_step(terms(p, size), p.C, method.order, method.tolerance))
     steps = rounded_up(min(needed, MAX_FOLD_STEPS))
