@@ -84,7 +84,7 @@ def as_dict(subject: Subject, x: CrossCheck) -> dict[str, Any]:
         "forcing": subject.forcing,
         "frequencies": {name: _pair(value) for name, value in subject.frequencies},
         "hill": _route(x.hill),
-        "floquet": _route(x.floquet) | {"multipliers": [_pair(m) for m in x.floquet.multipliers]},
+        "floquet": _route(x.floquet),
         "difference": x.difference,
         "bound": x.bound,
         "discretisation": x.discretisation,
@@ -127,9 +127,9 @@ def as_csv(subject: Subject, x: CrossCheck) -> str:
     for k, pair in enumerate(zip(x.hill.z, x.floquet.z, strict=True)):
         writer.writerow(["z_re", k, *(_cell(z.real) for z in pair)])
         writer.writerow(["z_im", k, *(_cell(z.imag) for z in pair)])
-    for k, mu in enumerate(x.floquet.multipliers):
-        writer.writerow(["multiplier_re", k, "", _cell(mu.real)])
-        writer.writerow(["multiplier_im", k, "", _cell(mu.imag)])
+    for k, pair in enumerate(zip(x.hill.multipliers, x.floquet.multipliers, strict=True)):
+        writer.writerow(["multiplier_re", k, *(_cell(mu.real) for mu in pair)])
+        writer.writerow(["multiplier_im", k, *(_cell(mu.imag) for mu in pair)])
     for name, value in (*subject.forcing.items(), *subject.values.items()):
         writer.writerow([name, "", _cell(value), _cell(value)])
     return buffer.getvalue()
@@ -199,6 +199,8 @@ def _route(r: Any) -> dict[str, Any]:
         "T": r.T,
         "T_error": r.T_error,
         "z": [_pair(z) for z in r.z],
+        "multipliers": [_pair(mu) for mu in r.multipliers],
+        "exponents": [_pair(s) for s in r.exponents],
         "polynomial": [float(p) for p in r.polynomial],
         "error": r.error,
         "data_error": r.data_error,

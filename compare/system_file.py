@@ -9,16 +9,18 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hill import SteppedBeam, UniformBeam, checks
+from compare.matrix_file import matrix, periodic
+from hill import Fourier, PeriodicSystem, SteppedBeam, UniformBeam, checks
 from hill.system import FORCING, MatrixSystem, System, varied
 from hill.toml import content as toml
-from hill.toml import one_of, only, table, unreadable
+from hill.toml import one_of, only, table
 from hill.vehicle import file as vehicle_file
 
 Float = NDArray[np.float64]
 
 SECTIONS = ("kind", "forcing", "axis", "title")
 MATRICES = ("F", "G", "M")
+GENERAL = ("M", "C", "K", "A")
 TERMS = ("F_terms", "G_terms")
 
 
@@ -112,9 +114,12 @@ def _described(content: dict[str, Any], path: Path) -> Described:
     axes = content.get("axis", [])
     if not isinstance(axes, list):
         raise ValueError("axis: must be an array of tables, [[axis]]")
+    system = KINDS[kind](own, path.parent)
+    # given harmonics are what they are, unless less of them is asked for
+    whole = {"gamma": 1.0} if isinstance(system, PeriodicSystem) else {}
     return Described(
-        system=KINDS[kind](own, path.parent),
-        forcing={name: checks.number(f"forcing.{name}", x) for name, x in forcing.items()},
+        system=system,
+        forcing=whole | {name: checks.number(f"forcing.{name}", x) for name, x in forcing.items()},
         axes=tuple(_axis(axis) for axis in axes),
         kind=kind,
         title=str(content.get("title", path.stem)),
@@ -145,7 +150,27 @@ def _required(f: Any) -> bool:
     return f.default is MISSING and f.default_factory is MISSING
 
 
-def _matrices(own: dict[str, Any], folder: Path) -> MatrixSystem:
+def _matrices(own: dict[str, Any], folder: Path) -> System:
+    return _periodic(own, folder) if {"C", "K", "A"} & set(own) else _pulsating(own, folder)
+
+
+def _periodic(own: dict[str, Any], folder: Path) -> PeriodicSystem:
+    """M, C and K, or A, with their harmonics."""
+    if {"F", "G"} & set(own):
+        raise ValueError(
+            "system.F, system.G: go without C, K and A; write them as K's mean and cos.1"
+        )
+    only(own, (*GENERAL, "frequency_names"), "system.")
+    given: dict[str, Any] = {
+        name: periodic(f"system.{name}", own[name], folder) for name in GENERAL if name in own
+    }
+    if isinstance(given.get("M"), Fourier):
+        raise ValueError("system.M: must be constant, one matrix")
+    return PeriodicSystem(**given, frequency_names=_frequency_names(own))
+
+
+def _pulsating(own: dict[str, Any], folder: Path) -> MatrixSystem:
+    """F and G, and what goes with them."""
     known = (*MATRICES, "H", "omega_L", *TERMS, "values", "frequency_names")
     only(own, known, "system.")
     for name in ("F", "G"):
@@ -164,93 +189,25 @@ def _matrices(own: dict[str, Any], folder: Path) -> MatrixSystem:
         }
         for which in TERMS
     }
-    names = own.get("frequency_names")
-    if names is not None and not (
-        isinstance(names, list) and all(isinstance(x, str) for x in names)
-    ):
-        raise ValueError("system.frequency_names: must be a list of words")
     return MatrixSystem(
         **given,
         H=[matrix(f"system.H[{s}]", value, folder) for s, value in enumerate(H)],
         omega_L=own.get("omega_L", math.inf),
         values=table(own, "values"),
-        frequency_names=names,
+        frequency_names=_frequency_names(own),
         **terms,
     )
 
 
-def matrix(name: str, value: Any, folder: Path) -> Float:
-    """A matrix given row by row, or as "file.npz:array", "file.mat:array" or "file.mtx".
-
-    Raises
-    ------
-    ValueError
-        It is not one, or the file is not there or does not have it.
-    """
-    if not isinstance(value, str):
-        return checks.square(name, value)
-    file, _, array = value.partition(":")
-    path = folder / file
-    reader = READERS.get(path.suffix.lower())
-    if reader is None:
-        raise ValueError(
-            f"{name} = {value!r}: must be rows of numbers or a file's name, {', '.join(READERS)}"
-        )
-    if path.suffix.lower() != ".mtx" and not array:
-        raise ValueError(f'{name} = {value!r}: must name the array too, as "{file}:F"')
-    try:
-        found = reader(path, array)
-    except OSError as error:
-        raise ValueError(f"{name} = {value!r}: {unreadable(error)}") from None
-    return checks.square(name, found)
+def _frequency_names(own: dict[str, Any]) -> list[str] | None:
+    names = own.get("frequency_names")
+    if names is not None and not (
+        isinstance(names, list) and all(isinstance(x, str) for x in names)
+    ):
+        raise ValueError("system.frequency_names: must be a list of words")
+    return names
 
 
-def _named(available: Mapping[str, Any], array: str, path: Path) -> Any:
-    if array not in available:
-        names = [name for name in available if not name.startswith("__")]
-        raise ValueError(f"{path.name} has no array {array!r}: {one_of(array, names)}")
-    return available[array]
-
-
-def _npz(path: Path, array: str) -> Any:
-    from zipfile import BadZipFile
-
-    try:
-        with np.load(path, allow_pickle=False) as archive:
-            if not hasattr(archive, "files"):
-                raise ValueError(f"{path.name}: is not an .npz archive")
-            return _named({name: archive[name] for name in archive.files}, array, path)
-    except BadZipFile:
-        raise ValueError(f"{path.name}: is not an .npz archive") from None
-
-
-def _mat(path: Path, array: str) -> Any:
-    from scipy.io import loadmat
-    from scipy.io.matlab import MatReadError
-
-    try:
-        return _dense(_named(loadmat(str(path)), array, path))
-    except NotImplementedError:
-        raise ValueError(
-            f"{path.name}: is a .mat file of version 7.3; save it as version 7 (save -v7)"
-        ) from None
-    except MatReadError as error:
-        raise ValueError(f"{path.name}: is not a .mat file ({error})") from None
-
-
-def _mtx(path: Path, _: str) -> Any:
-    from scipy.io import mmread
-
-    if not path.exists():
-        raise FileNotFoundError(2, "no such file or directory")
-    return _dense(mmread(str(path)))
-
-
-def _dense(found: Any) -> Any:
-    return found.toarray() if hasattr(found, "toarray") else found
-
-
-READERS: dict[str, Callable[[Path, str], Any]] = {".npz": _npz, ".mat": _mat, ".mtx": _mtx}
 KINDS: dict[str, Callable[[dict[str, Any], Path], Any]] = {
     "uniform": _beam(UniformBeam),
     "stepped": _beam(SteppedBeam),

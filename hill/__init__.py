@@ -6,6 +6,7 @@ from hill.determinant.result import Characteristic
 from hill.equation import HillEquation
 from hill.errors import LongitudinalResonance, Refused, Singular
 from hill.periodic import Fourier, PeriodicEquation
+from hill.periodic_system import PeriodicSystem
 from hill.system import MatrixSystem, Parameter, System
 from hill.vehicle.parts import Damping, PointMass, Section, Sensor, Thrust
 from hill.vehicle.units import Units
@@ -20,6 +21,7 @@ __all__ = [
     "MatrixSystem",
     "Parameter",
     "PeriodicEquation",
+    "PeriodicSystem",
     "PointMass",
     "Refused",
     "Section",

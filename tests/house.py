@@ -50,6 +50,7 @@ DATA_MODULES = {
     "hill.equation",
     "hill.errors",
     "hill.periodic",
+    "hill.periodic_system",
     "hill.system",
     "hill.toml",
     "hill.vehicle.file",

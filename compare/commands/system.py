@@ -34,7 +34,20 @@ mine.toml, in its simplest form:
 
 F, G and a mass matrix M may be files: "mine.npz:F", "mine.mat:F", "mine.mtx". A term
 F_terms.name = [[...]] (or G_terms.name) makes a parameter `name` of which F gains so much; its
-value is values.name. kind = "uniform" and "stepped" are the report's beams, with T0, K_theta, ...
+value is values.name.
+
+In general form, M q'' + C q' + K q = 0 with harmonics (or A of x' = A x alone); gamma scales them
+all, and is 1 where it is not given:
+
+  kind = "matrices"
+  [system]
+  M = [[1.0, 0.0], [0.0, 2.0]]
+  C = "mine.npz:C"
+  K = { mean = [[2.0, -1.0], [-1.0, 2.0]], cos.1 = "mine.npz:K1", sin.2 = [[0.1, 0.0], [0.0, 0.0]] }
+  [forcing]
+  Omega = 2.0
+
+kind = "uniform" and "stepped" are the report's beams, with T0, K_theta, ...
 
 exit status: 0 the routes agree; 1 they do not; 2 wrong usage or input."""
 
