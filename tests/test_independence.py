@@ -20,7 +20,17 @@ from floquet import monodromy
 from floquet.batch.equations import WORTH_COMPILING
 from floquet.vehicle.discretise import discretised
 from floquet.weak_form import galerkin
-from hill import HillEquation, Section, SteppedBeam, Thrust, UniformBeam, Vehicle, characteristic
+from hill import (
+    Fourier,
+    HillEquation,
+    PeriodicEquation,
+    Section,
+    SteppedBeam,
+    Thrust,
+    UniformBeam,
+    Vehicle,
+    characteristic,
+)
 
 FORCING = (1.82, 0.1)
 BEAMS = {
@@ -39,10 +49,18 @@ EQUATION = HillEquation([[2.0, 0.3], [0.2, 1.0]], [[1.0, 2.0], [3.0, 1.0]], 0.3,
 DASHPOT = HillEquation(EQUATION.F, EQUATION.G, 0.3, 1.3, [[0.2, 0.0], [0.0, 0.1]])
 WITH_H = HillEquation(EQUATION.F, EQUATION.G, 0.3, 1.3, 0.05, [np.eye(2)], 2.6)
 
+GENERAL = PeriodicEquation(
+    C=Fourier(0.1 * np.eye(2), cos={1: [[0.1, 0.2], [0.0, 0.1]]}),
+    K=Fourier([[2.0, 0.3], [0.2, 1.0]], cos={1: EQUATION.G * 0.1}, sin={2: 0.2 * np.eye(2)}),
+    Omega=1.3,
+)
+
 BY_FLOQUET: dict[str, Callable[[], Any]] = {
     "half a period": lambda: monodromy(EQUATION),
     "with H": lambda: monodromy(WITH_H),
     "cvodes": lambda: monodromy(EQUATION, method="cvodes"),
+    "general": lambda: monodromy(GENERAL),
+    "general, cvodes": lambda: monodromy(GENERAL, method="cvodes"),
     "damping matrix": lambda: monodromy(DASHPOT),
     "batch": lambda: floquet.batch.polynomials([EQUATION, WITH_H]),
     "sweep": lambda: floquet.batch.sweep(EQUATION, Omega=[1.0, 1.3], gamma=0.3, kernel="numpy"),
@@ -62,6 +80,8 @@ BY_FLOQUET: dict[str, Callable[[], Any]] = {
 BY_HILL: dict[str, Callable[[], Any]] = {
     "converged": lambda: characteristic(EQUATION),
     "with H": lambda: characteristic(WITH_H),
+    "general": lambda: characteristic(GENERAL),
+    "vehicle": lambda: VEHICLE.equation(30.0, 0.1),
     "residues": lambda: characteristic(EQUATION, truncation="report"),
     "samples": lambda: characteristic(HillEquation([[4.0]], [[1.0]], 0.3, 1.0), truncation=8),
     "batch": lambda: hill.batch.polynomials([EQUATION, WITH_H]),
@@ -134,6 +154,8 @@ def asked_by_the_judge(calls: set[Call]) -> set[str]:
 
 JUDGED: dict[str, Callable[[], Any]] = {
     "crosscheck": lambda: compare.crosscheck(BEAMS["stepped"], Omega=1.8, gamma=0.1),
+    "crosscheck, general": lambda: compare.crosscheck(GENERAL),
+    "rows": lambda: compare.verify(rows=["T1-01", "T3-01b"]),
     "chart": lambda: charted("uniform", "floquet"),
     "chart, hill": lambda: charted("uniform", "hill"),
     "tongues": lambda: import_module("compare.edges.instabilities").instabilities(
