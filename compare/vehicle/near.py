@@ -1,0 +1,232 @@
+"""One resonance of a system, seen along Omega: where it grows, how fast, where it ends.
+
+What is looked at, half the sum of two exponents and the square of half their difference, is smooth
+where the growth is not: a few values of Omega across the band know it, and its edges are solved for
+on the polynomials through them and corrected at the edges themselves.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.polynomial import chebyshev
+from numpy.typing import NDArray
+from scipy.optimize import brentq
+
+from hill.averaging import Resonance
+from hill.oscillations.coupling import Coupled, Guess
+from hill.oscillations.pair import Pair, pair
+from hill.oscillations.steady import Steady
+
+Complex = NDArray[np.complexfloating[Any, Any]]
+Equation = Callable[[float], Any]
+
+# Values of Omega across a band. What they leave of an edge is corrected at the edge.
+NODES = 7
+
+# Reach of the window over the half width of the band that it was made for.
+REACH = 1.3
+
+# How often the window is moved to where the band is.
+MAX_MOVES = 6
+
+# Damping, over Omega, that is none: rounding of an undamped exponent.
+UNDAMPED = 1e-10
+
+# An edge that is corrected by more, over half the window, is solved for without polynomials.
+MAX_CORRECTION = 0.02
+
+# Half a window where nothing grows, and where averaging sees no coupling at all.
+LEAST = 1e-4
+
+
+@dataclass(frozen=True)
+class Band:
+    """What one resonance does at one pulsation.
+
+    Attributes
+    ----------
+    resonance : Resonance
+    Omega : float
+        Where it grows fastest, or decays slowest.
+    T : float
+        Twice the growth exponent there, of the two oscillations alone.
+    T_error : float
+        An estimate.
+    edges : (float, float) or None
+        Omega between which it grows.
+    edge_error : float
+        An estimate.
+    excess : float
+        What becomes 0 where the band closes; linear in a power of the pulsation.
+    """
+
+    resonance: Resonance
+    Omega: float
+    T: float
+    T_error: float
+    edges: tuple[float, float] | None
+    edge_error: float
+    excess: float
+
+    @property
+    def width(self) -> float:
+        """In Omega; 0 where there is no band."""
+        return self.edges[1] - self.edges[0] if self.edges else 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class Near:
+    """A resonance of an equation along Omega.
+
+    Attributes
+    ----------
+    equation : callable
+        Of Omega.
+    resonance : Resonance
+    alone : Steady
+        The oscillations without pulsation.
+    """
+
+    equation: Equation
+    resonance: Resonance
+    alone: Steady
+    known: dict[float, Pair] = field(default_factory=dict)
+
+    @property
+    def Omega(self) -> float:
+        """The resonance's own."""
+        return self.resonance.Omega(self.alone.frequencies + 0j)
+
+    def guess(self) -> Guess:
+        """By averaging."""
+        return Coupled(self.equation(self.Omega), self.alone).guess(self.resonance)
+
+    def at(self, Omega: float) -> Pair:
+        """The two exponents at one Omega."""
+        if Omega not in self.known:
+            self.known[Omega] = pair(self.equation(Omega), self.resonance, self.alone)
+        return self.known[Omega]
+
+    def band(self, guess: Guess | None = None) -> Band:
+        """The band, at the equation's pulsation.
+
+        Raises
+        ------
+        Refused
+            It lies within another instability, or too many harmonics take part.
+        """
+        window = self._window(guess or self.guess())
+        fits = _Fits.of(window, [self.at(x) for x in window.nodes])
+        peak = fits.peak()
+        own = self.at(peak)
+        over = excess(own, peak)
+        edges, error = None, 0.0
+        if over > 0.0:
+            (low, off), (high, other) = (
+                self._edge(fits, peak, window.centre + side * window.half) for side in (-1.0, 1.0)
+            )
+            edges, error = (low, high), max(off, other)
+        return Band(self.resonance, peak, own.T, 2.0 * own.error, edges, error, over)
+
+    def _window(self, guess: Guess) -> "_Window":
+        """About the middle of the band, as wide as it."""
+        k, centre = self.resonance.order, self.Omega
+        half = max(2.0 * abs(guess.coupling) ** 0.5 / k, LEAST * centre)
+        for _ in range(MAX_MOVES):
+            at = centre + half * np.array([-1.0, 0.0, 1.0])
+            squares = np.array([self.at(float(x)).square.real for x in at])
+            bend = squares[0] - 2.0 * squares[1] + squares[2]
+            # the square is that of the growth at the middle less (k (Omega - middle)/2)^2
+            move = 0.5 * (squares[0] - squares[2]) / bend if bend < 0.0 else 0.0
+            top = squares[1] - 0.125 * (squares[2] - squares[0]) ** 2 / bend if bend < 0.0 else 0.0
+            middle = float(at[1] + half * np.clip(move, -3.0, 3.0))
+            wide = max(2.0 * max(top, 0.0) ** 0.5 / k, LEAST * centre)
+            settled = abs(middle - centre) < 0.3 * half and 0.3 * half < wide < 3.0 * half
+            centre, half = middle, wide
+            if settled:
+                break
+        return _Window(centre, REACH * half)
+
+    def _edge(self, fits: "_Fits", peak: float, end: float) -> tuple[float, float]:
+        """Where growth ends between its peak and the window's end, and how far that may be off."""
+        while fits.excess(end) > 0.0 and excess(self.at(end), end) > 0.0:
+            end = max(end + (end - peak), 0.1 * peak)
+        if fits.excess(end) > 0.0:  # the polynomials are not good enough
+            return self._solved(peak, end), 1e-9 * peak
+        half = fits.window.half
+        first = float(brentq(fits.excess, peak, end, xtol=1e-14 * peak))
+        step = 1e-3 * half
+        slope = (fits.excess(first + step) - fits.excess(first - step)) / (2.0 * step)
+        correction = -excess(self.at(first), first) / slope if slope else np.inf
+        if abs(correction) > MAX_CORRECTION * half:
+            return self._solved(peak, end), 1e-9 * peak
+        # another would be smaller by about the same factor
+        return first + correction, abs(correction) * MAX_CORRECTION + 1e-12 * peak
+
+    def _solved(self, peak: float, end: float) -> float:
+        """The same without polynomials."""
+        return float(brentq(lambda x: excess(self.at(x), x), peak, end, rtol=1e-10))
+
+
+def excess(pair: Pair, Omega: float) -> float:
+    """Above 0 where one of two exponents grows, smooth through 0: of mean -a and square p + i q.
+
+    a < Re sqrt(p + i q) is q^2 > 4 a^2 (a^2 - p).
+    """
+    a, p, q = -pair.mean.real, pair.square.real, pair.square.imag
+    if a <= UNDAMPED * Omega:
+        return p if a >= -UNDAMPED * Omega else max(p, 0.0) + a * a
+    return p - a * a + (0.5 * q / a) ** 2
+
+
+@dataclass(frozen=True)
+class _Window:
+    centre: float
+    half: float
+
+    @property
+    def nodes(self) -> list[float]:
+        """Chebyshev's."""
+        angles = np.pi * (np.arange(NODES) + 0.5) / NODES
+        return [float(self.centre + self.half * x) for x in np.cos(angles)]
+
+
+@dataclass(frozen=True, eq=False)
+class _Fits:
+    """Polynomials through mean and square over a window."""
+
+    window: _Window
+    mean: Complex
+    square: Complex
+
+    @classmethod
+    def of(cls, window: _Window, pairs: list[Pair]) -> "_Fits":
+        t = (np.array(window.nodes) - window.centre) / window.half
+
+        def through(values: list[complex]) -> Complex:
+            found = np.array(values)
+            real, imag = (chebyshev.chebfit(t, x, NODES - 1) for x in (found.real, found.imag))
+            return np.asarray(real + 1j * imag)
+
+        return cls(window, through([p.mean for p in pairs]), through([p.square for p in pairs]))
+
+    def at(self, Omega: float) -> Pair:
+        """Mean and square there."""
+        t = (Omega - self.window.centre) / self.window.half
+        mean, square = (complex(chebyshev.chebval(t, c)) for c in (self.mean, self.square))
+        return Pair(mean, square, 0.0, 0.0)
+
+    def excess(self, Omega: float) -> float:
+        return excess(self.at(Omega), Omega)
+
+    def peak(self) -> float:
+        """Where it grows fastest; where the square is largest, if nothing grows."""
+        low, high = self.window.centre - self.window.half, self.window.centre + self.window.half
+        for _ in range(3):
+            grid = np.linspace(low, high, 41)
+            values = [self.at(float(x)) for x in grid]
+            most = max(range(41), key=lambda k: (values[k].T, values[k].square.real))
+            low, high = grid[max(most - 1, 0)], grid[min(most + 1, 40)]
+        return float(grid[most])
