@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from scipy.optimize import brentq
 
 from hill.averaging import Resonance
+from hill.errors import Refused
 from hill.oscillations.coupling import Coupled, Guess
 from hill.oscillations.pair import Pair, pair
 from hill.oscillations.steady import Steady
@@ -30,6 +31,9 @@ REACH = 1.3
 
 # How often the window is moved to where the band is.
 MAX_MOVES = 6
+
+# Shift of a band's middle, over its resonance: beyond, it is another's.
+MAX_SHIFT = 0.3
 
 # Damping, over Omega, that is none: rounding of an undamped exponent.
 UNDAMPED = 1e-10
@@ -99,6 +103,13 @@ class Near:
         """The resonance's own."""
         return self.resonance.Omega(self.alone.frequencies + 0j)
 
+    @property
+    def excess_at_rest(self) -> float:
+        """`excess` at the resonance without pulsation."""
+        both = [self.alone.oscillations[k] for k in (self.resonance.i, self.resonance.j)]
+        a, b = (-float(self.alone.exponents[k].real) for k in both)
+        return -a * b if min(a, b) > UNDAMPED * self.Omega else 0.0
+
     def guess(self) -> Guess:
         """By averaging."""
         return Coupled(self.equation(self.Omega), self.alone).guess(self.resonance)
@@ -145,6 +156,8 @@ class Near:
             wide = max(2.0 * max(top, 0.0) ** 0.5 / k, LEAST * centre)
             settled = abs(middle - centre) < 0.3 * half and 0.3 * half < wide < 3.0 * half
             centre, half = middle, wide
+            if abs(centre - self.Omega) > MAX_SHIFT * self.Omega:
+                raise Refused(f"{self.resonance.name}: has no band beside Omega = {self.Omega:g}")
             if settled:
                 break
         return _Window(centre, REACH * half)

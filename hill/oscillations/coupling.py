@@ -20,6 +20,9 @@ from hill.equation import HillEquation
 from hill.oscillations.steady import Steady
 from hill.periodic import Fourier, PeriodicEquation
 
+# Decay, over the exponent, that is none: of two that are rounding only the ratio would matter.
+UNDAMPED = 1e-10
+
 
 @dataclass(frozen=True)
 class Guess:
@@ -73,7 +76,7 @@ class Coupled:
         exponent = complex(mu[i])
         square = self._passed(j, i, range(-k, 1), exponent)
         square *= self._passed(i, j, range(0, -k - 1, -1), exponent)
-        a, b = max(float(-mu[i].real), 0.0), max(float(-mu[j].real), 0.0)
+        a, b = (float(-x.real) if -x.real > UNDAMPED * abs(x) else 0.0 for x in (mu[i], mu[j]))
         c2 = float(square.real)
         growth = np.sqrt(max(0.25 * (a - b) ** 2 + c2, 0.0)) - 0.5 * (a + b)
         grows = c2 > a * b
