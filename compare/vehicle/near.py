@@ -216,6 +216,7 @@ class _Fits:
 
     @classmethod
     def of(cls, window: _Window, pairs: list[Pair]) -> "_Fits":
+        """Through the pairs at the window's nodes."""
         t = (np.array(window.nodes) - window.centre) / window.half
 
         def through(values: list[complex]) -> Complex:
@@ -232,6 +233,7 @@ class _Fits:
         return Pair(mean, square, 0.0, 0.0)
 
     def excess(self, Omega: float) -> float:
+        """As `excess`, of the polynomials."""
         return excess(self.at(Omega), Omega)
 
     def peak(self) -> float:
