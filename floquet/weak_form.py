@@ -7,13 +7,22 @@ the modes is not used, and the axial force of the stepped bar is solved for nume
 from collections.abc import Callable
 from functools import cache, lru_cache
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import brentq
 
 from floquet.arrays import frozen
-from hill import HillEquation, LongitudinalResonance, SteppedBeam, UniformBeam, checks
+from hill import (
+    Fourier,
+    HillEquation,
+    LongitudinalResonance,
+    PeriodicEquation,
+    SteppedBeam,
+    UniformBeam,
+    checks,
+)
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complexfloating]
@@ -38,7 +47,7 @@ def galerkin(
     gamma: float,
     eta: float = 0.0,
     initial_terms: int = 0,
-) -> HillEquation:
+) -> Any:
     """Reduce Eq. (4.4.22), or (5.3.8) for a stepped beam, by Galerkin's method (4.5.7).
 
     Parameters
@@ -57,7 +66,7 @@ def galerkin(
 
     Returns
     -------
-    HillEquation
+    HillEquation, or PeriodicEquation with `quadrature_force`
         ``F``, ``G`` and each of ``H`` are (N + 1, N + 1), dimensionless, in the coordinates
         q_1 .. q_N (bending) and q_B (rotation).
 
@@ -108,7 +117,7 @@ def galerkin(
     sines = [np.sin(s * np.pi * xi) for s in range(1, terms + 1)]
     start = steady(xi) + gamma * pulsating(xi)
     amplitudes = [-2.0 * float(np.sum(weight * start * sine)) for sine in sines]
-    return HillEquation(
+    made = HillEquation(
         F=reduced(bending + beam.T0 * end + thrust(steady(xi))),
         G=reduced(beam.T0 * end + thrust(pulsating(xi))),
         gamma=gamma,
@@ -120,6 +129,16 @@ def galerkin(
         data_error=min(
             MATRIX_ERROR * (1.0 + np.pi * abs(wave) * float(np.max(np.abs(pulsating(xi))))), 1.0
         ),
+    )
+    if isinstance(beam, SteppedBeam) or not beam.quadrature_force:
+        return made
+    whole = made.general()
+    sine = {1: -gamma * out_of_phase(beam, Omega)}
+    return PeriodicEquation(
+        K=Fourier(whole.K.mean, cos=whole.K.cos, sin=sine),
+        C=whole.C,
+        Omega=whole.Omega,
+        data_error=whole.data_error,
     )
 
 

@@ -5,6 +5,7 @@ The formulas are in :mod:`hill.matrices.uniform` and :mod:`hill.matrices.stepped
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -23,6 +24,7 @@ from hill.beam_common import (
 )
 from hill.equation import HillEquation
 from hill.matrices import stepped, uniform
+from hill.periodic import with_sine
 from hill.system import Parameter
 
 
@@ -44,6 +46,9 @@ class UniformBeam:
         Structural damping factor of the longitudinal vibration, Eq. (4.2.34), 0 to 10,000.
     modes : int, optional
         N, the number of bending modes; the report has 2.
+    quadrature_force : bool, optional
+        Whether the force's part a quarter of a period behind the thrust, which the report leaves
+        out (4.2.39), is in the equation. That is a `PeriodicEquation` then.
 
     Raises
     ------
@@ -57,6 +62,7 @@ class UniformBeam:
     omega_L: float = math.inf
     g: float = 0.0
     modes: int = 2
+    quadrature_force: bool = False
 
     def __post_init__(self) -> None:
         checks.store(
@@ -67,6 +73,7 @@ class UniformBeam:
             omega_L=checks.positive("omega_L", self.omega_L, or_infinite=True),
             g=checks.between("g", self.g, 0.0, MAX_G),
             modes=checks.count("modes", self.modes, least=1, most=MAX_MODES),
+            quadrature_force=checks.flag("quadrature_force", self.quadrature_force),
         )
 
     @property
@@ -102,9 +109,7 @@ class UniformBeam:
         """
         return frequencies(uniform.steady(self.modes, self.T0, self.K_theta, self.xi_G))
 
-    def equation(
-        self, Omega: float, gamma: float, eta: float = 0.0, initial_terms: int = 0
-    ) -> HillEquation:
+    def equation(self, Omega: float, gamma: float, eta: float = 0.0, initial_terms: int = 0) -> Any:
         """Eq. (4.5.18) in closed form.
 
         Parameters
@@ -122,7 +127,7 @@ class UniformBeam:
 
         Returns
         -------
-        HillEquation
+        HillEquation, or PeriodicEquation with `quadrature_force`
             Of ``modes + 1`` coordinates: the bending modes, then the rotation.
 
         Raises
@@ -147,7 +152,7 @@ class UniformBeam:
             refuse_resonance(resonant, Omega, self.omega_L)
         damped = np.sqrt(sigma**2 - 1j * self.g) if self.g else sigma
         beam = (self.modes, self.T0)
-        return HillEquation(
+        made = HillEquation(
             F=uniform.steady(*beam, self.K_theta, self.xi_G),
             G=uniform.pulsating(*beam, self.K_theta, self.xi_G, damped),
             gamma=gamma,
@@ -157,6 +162,9 @@ class UniformBeam:
             omega_L=self.omega_L,
             data_error=matrix_error(np.pi * abs(damped), abs(np.sin(np.pi * damped))),
         )
+        if not self.quadrature_force:
+            return made
+        return with_sine(made, -gamma * uniform.out_of_phase(*beam, damped))
 
 
 @dataclass(frozen=True, kw_only=True)

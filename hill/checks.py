@@ -58,6 +58,13 @@ def count(name: str, value: Any, *, least: int, most: int | None = None) -> int:
     return int(value)
 
 
+def flag(name: str, value: Any) -> bool:
+    """Return `value` as a bool, or raise `ValueError` if it is not one."""
+    if not isinstance(value, (bool, np.bool_)):
+        raise ValueError(f"{name} = {value!r}: must be True or False")
+    return bool(value)
+
+
 def square(
     name: str, value: ArrayLike, *, n: int | None = None, like: str = "F"
 ) -> NDArray[np.float64]:

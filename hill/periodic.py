@@ -198,6 +198,18 @@ def general(equation: HillEquation) -> PeriodicEquation:
     )
 
 
+def with_sine(equation: HillEquation, matrix: ArrayLike) -> PeriodicEquation:
+    """The equation in general form with sin(Omega tau) times a matrix in its stiffness."""
+    made = general(equation)
+    assert made.K is not None
+    return PeriodicEquation(
+        K=Fourier(made.K.mean, cos=made.K.cos, sin={1: matrix}, name="K"),
+        C=made.C,
+        Omega=made.Omega,
+        data_error=made.data_error,
+    )
+
+
 def _forcing_frequency(Omega: float) -> float:
     return checks.between("Omega", checks.positive("Omega", Omega), *SQUARABLE)
 

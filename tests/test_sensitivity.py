@@ -266,7 +266,7 @@ BEAMS: dict[str, tuple[UniformBeam | SteppedBeam, float, float, float]] = {
 
 
 def continuous(beam: UniformBeam | SteppedBeam) -> list[str]:
-    names = [f.name for f in fields(beam) if f.name != "modes"]
+    names = [f.name for f in fields(beam) if f.name not in ("modes", "quadrature_force")]
     return [name for name in names if np.isfinite(vars(beam)[name])]
 
 

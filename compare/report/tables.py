@@ -79,7 +79,7 @@ class Row:
 
     def beam(self, modes: int) -> UniformBeam | SteppedBeam:
         """The beam of the table's heading, with this many bending modes."""
-        common = parameters(self.table)
+        common: dict[str, Any] = parameters(self.table)
         if self.run["beam"] == "uniform":
             return UniformBeam(**common, g=self.run["g"], omega_L=self.omega_L, modes=modes)
         return SteppedBeam(**common, omega_L=self.omega_L, modes=modes)

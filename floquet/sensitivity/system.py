@@ -56,6 +56,10 @@ class BeamSensitivities:
     dz_error: dict[str, Float]
 
 
+# What a beam has beside numbers that may be varied.
+FIXED = ("modes", "quadrature_force")
+
+
 def beam_sensitivities(
     beam: Beam, Omega: float, gamma: float, eta: float = 0.0
 ) -> BeamSensitivities:
@@ -81,9 +85,11 @@ def beam_sensitivities(
     ValueError
         As for `floquet.weak_form.galerkin` and `sensitivities`.
     """
+    if isinstance(beam, UniformBeam) and beam.quadrature_force:
+        raise ValueError("quadrature_force = True: must be False, sensitivities are of T in z")
     model = galerkin(beam, Omega, gamma, eta)
     s = sensitivities(model)
-    own = {f.name: float(vars(beam)[f.name]) for f in fields(beam) if f.name != "modes"}
+    own = {f.name: float(vars(beam)[f.name]) for f in fields(beam) if f.name not in FIXED}
     own = {name: value for name, value in own.items() if isfinite(value)}
     moved = {name: matrix_derivatives(beam, Omega, name) for name in own}
     none = np.zeros((2, *model.F.shape)), np.zeros(2)

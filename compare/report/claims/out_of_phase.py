@@ -4,9 +4,9 @@ The report asks for the real portion of a motion that goes like exp(i Omega t) (
 Re Phi* cos(Omega t) (4.2.39). The real portion is Re Phi* cos(Omega t) - Im Phi* sin(Omega t): at a
 longitudinal resonance the first part passes through zero and the second is nearly the whole force.
 
-Neither route takes a cosine and a sine together, which are not even in time. The sine alone is a
-cosine a quarter of a period later, and both routes take that. Both parts together are integrated in
-``tests/test_claims.py``: unstable at every point that the claims rest on.
+The sine alone is a cosine a quarter of a period later. Both parts together are an equation in
+general form, `UniformBeam(quadrature_force=True)`: by both routes (``tests/test_whole_force.py``),
+and integrated in ``tests/test_claims.py``, unstable at every point that the claims rest on.
 """
 
 from functools import lru_cache
