@@ -2,6 +2,7 @@
 
 import ast
 import inspect
+import re
 from dataclasses import is_dataclass
 from importlib import import_module
 from pathlib import Path
@@ -263,3 +264,25 @@ def test_a_module_is_had_by_its_name(name: str) -> None:
     if before:
         module = import_module(name)
         assert getattr(import_module(before), last) is module
+
+
+def of_the_readme() -> set[str]:
+    """Modules and folders that its table names; beside the first of a row, the others stand."""
+    text = (Path(__file__).parents[1] / "README.md").read_text(encoding="utf-8")
+    found = set()
+    for line in text.splitlines():
+        parts = re.findall(r"`([\w/]+(?:\.py|/))`", line.split("|")[1]) if line[:3] == "| `" else []
+        floor = parts[0].split("/")[0] if parts else ""
+        if floor in FLOORS:
+            found |= {part if part.startswith(floor) else f"{floor}/{part}" for part in parts}
+    return found
+
+
+def test_what_the_readme_names_is_there() -> None:
+    there = {
+        f"{floor}/{path.name}" + "/" * path.is_dir()
+        for floor, root in ROOTS.items()
+        for path in root.iterdir()
+    }
+    assert len(of_the_readme()) > 30
+    assert of_the_readme() <= there

@@ -1,6 +1,6 @@
 """A matrix whose eigenvalues are z, or the multipliers, and what moves its elements.
 
-Three ways to it, as in :mod:`floquet.monodromy`: half a period or a whole one in
+Three ways to it, as in :mod:`floquet.period`: half a period or a whole one in
 ``u = exp(eta tau/2) q``, and the whole period in q as it stands. Gradients are flat:
 ``Omega, gamma, eta, F, G, H``, row by row.
 """

@@ -120,7 +120,7 @@ def _determinants(system: BlockBatch, alpha: Complex, M: int) -> Complex:
 
 
 def _block_tail(squares: Complex, alpha: Complex, M: int) -> Complex:
-    """As `determinant.log_block_tail`, the series summed by Horner's rule."""
+    """As `finite.log_block_tail`, the series summed by Horner's rule."""
     w = np.sqrt(squares)
     x2 = (np.concatenate([w + alpha, w - alpha]) / M) ** 2
     k = np.arange(SERIES, 0, -1)
