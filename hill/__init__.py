@@ -8,12 +8,16 @@ from hill.errors import LongitudinalResonance, Refused, Singular
 from hill.periodic import Fourier, PeriodicEquation
 from hill.periodic_system import PeriodicSystem
 from hill.system import MatrixSystem, Parameter, System
+from hill.vehicle.convergence import Convergence, with_more_modes
+from hill.vehicle.critical import CriticalThrust, critical_thrust
 from hill.vehicle.parts import Damping, PointMass, Section, Sensor, Thrust
 from hill.vehicle.units import Units
 from hill.vehicle.vehicle import Vehicle
 
 __all__ = [
     "Characteristic",
+    "Convergence",
+    "CriticalThrust",
     "Damping",
     "Fourier",
     "HillEquation",
@@ -34,4 +38,6 @@ __all__ = [
     "Units",
     "Vehicle",
     "characteristic",
+    "critical_thrust",
+    "with_more_modes",
 ]

@@ -24,9 +24,9 @@ def equation(
     pull = pulls(known, vehicle, Omega, follows if servo else follows + gain)
     per_time = known.modes.mesh.scales.time**-2
     size = _thrust(vehicle, known) * per_time
-    F = _elastic(known) * per_time + size * pull.steady
+    F = elastic(known) * per_time + size * pull.steady
     G, S = size * pull.cos, size * pull.sin
-    C, number = _damping(vehicle, known), eta * np.eye(len(F))
+    C, number = modal_damping(vehicle, known), eta * np.eye(len(F))
     if servo:
         # deflections and rotations of unit coordinates, in the vehicle's units
         unit = known.modes.mesh.scales
@@ -52,7 +52,7 @@ def natural_frequencies(vehicle: Vehicle) -> Float | Complex:
     known = structure(vehicle)
     turned = known.followed(vehicle) + known.gimbaled(vehicle)[0]
     steady = np.outer(known.arm, turned) - known.mean
-    F = _elastic(known) + _thrust(vehicle, known) * steady
+    F = elastic(known) + _thrust(vehicle, known) * steady
     roots = np.sqrt(np.linalg.eigvals(F).astype(complex)) / known.modes.mesh.scales.time
     roots = roots[np.lexsort((roots.imag, roots.real))]
     return roots if np.any(roots.imag) else roots.real.copy()
@@ -69,13 +69,13 @@ def _thrust(vehicle: Vehicle, known: Structure) -> float:
     return vehicle.thrust.mean / known.modes.mesh.scales.force
 
 
-def _elastic(known: Structure) -> Float:
+def elastic(known: Structure) -> Float:
     """Squares of the frequencies without thrust on the diagonal, 0 for a rotation."""
     lam = known.modes.lam
     return np.diag(np.append(lam, np.zeros(len(known.modes.shapes) - len(lam))))
 
 
-def _damping(vehicle: Vehicle, known: Structure) -> Float:
+def modal_damping(vehicle: Vehicle, known: Structure) -> Float:
     """Modal ratios and the matrix, 1/time."""
     n = len(known.modes.shapes)
     found = np.zeros((n, n))

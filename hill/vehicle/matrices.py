@@ -10,13 +10,17 @@ from hill.errors import LongitudinalResonance
 from hill.vehicle.axial import Axial, axial, lowest
 from hill.vehicle.modes import Modes, modes
 from hill.vehicle.parts import Damping, Thrust
-from hill.vehicle.shapes import PSI, Y
+from hill.vehicle.shapes import PSI, Shapes, Y
 from hill.vehicle.units import Units
 from hill.vehicle.vehicle import Vehicle
 
 # Rounding of an element of a matrix, over the largest; measured against the report's closed forms
 # and against other meshes of the same vehicles.
 MATRIX_ERROR = 64.0 * EPS
+
+
+TOGETHER = 8
+"""Modes are found so many at a time: those of N, N + 2, ... are the same ones, found once."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,6 +59,19 @@ class Structure:
     thrust_node: int
     ends: tuple[str, str]
     mean: Float
+
+    def of_the_lowest(self, number: int) -> "Structure":
+        """The same with fewer elastic modes."""
+        rows = [*range(number), *range(len(self.modes.lam), len(self.modes.shapes))]
+        return replace(
+            self,
+            modes=replace(
+                self.modes,
+                lam=self.modes.lam[:number],
+                shapes=Shapes(self.modes.mesh, self.modes.shapes.coefficients[rows]),
+            ),
+            mean=self.mean[np.ix_(rows, rows)],
+        )
 
     @property
     def arm(self) -> Float:
@@ -98,7 +115,11 @@ def structure(vehicle: Vehicle) -> Structure:
 
 @lru_cache(maxsize=32)
 def _structure(vehicle: Vehicle) -> Structure:
-    found = modes(vehicle, vehicle.modes)
+    number = vehicle.modes
+    if number % TOGETHER:
+        more = replace(vehicle, modes=number + TOGETHER - number % TOGETHER)
+        return _structure(more).of_the_lowest(number)
+    found = modes(vehicle, number)
     node = found.mesh.node(vehicle.thrust_station / vehicle.length)
     steady = axial(found.mesh, vehicle.ends, node, 0.0)
     return Structure(found, node, vehicle.ends, found.shapes.slope_products(np.real(steady.force)))
