@@ -17,9 +17,12 @@ MAX_EXACT = 12
 # The eigenvalues of LAPACK are those of a matrix within a modest multiple of n ulps, of its norm:
 # over 180 matrices of 13 to 20 rows, normal or not, P was off by .05 of what this allows at most.
 BACKWARD = 4.0
-# The same over the 8 ulps by which a sensitivity is multiplied at least: .14 of it at most over 240
-# matrices of 4 to 12 rows.
-NORMWISE = 0.5
+# The sum of the products in a minor is rounded by an ulp a product, three and less.
+PRODUCTS = 3.0
+# Ulps by which `characteristic_polynomials`' second result is multiplied at least: its two parts
+# that are no sensitivity are given over these. (8 sqrt(2 + 2 pi), the slowest motion, no growth.)
+LEAST_ULPS = 23.0
+PRODUCTS_SHARE = PRODUCTS / LEAST_ULPS
 
 
 def characteristic_polynomial(A: Float, scale: Float) -> tuple[Float, Float, Float]:
@@ -115,23 +118,25 @@ def characteristic_polynomials(A: Float, scale: Float) -> tuple[Float, Float]:
     (k, n + 1) ndarray
         Monic, highest power first.
     (k,) ndarray
-        How far a coefficient moves, at most, for a unit of relative change of `scale`; and for some
-        ulps of rounding on the way to it, over these ulps.
+        How far a coefficient moves, the most of them, where every element of A is off by `scale`
+        and none of these errors knows of another: the root of the sum of squares. With it, over
+        `LEAST_ULPS`, what the way from A to the coefficients is rounded by.
     """
     k, n = A.shape[:2]
     P = _minors(A) if n <= MAX_MINORS else _from_eigenvalues(A)
     B, largest = np.broadcast_to(np.eye(n), A.shape), np.zeros(k)
     # a minor's rounding is of the size of its products, whatever they cancel
-    summed = _products(np.abs(A)) if n == MAX_MINORS else np.zeros(k)
-    for j in range(n):
-        moved = np.einsum("kij,kji->k", np.abs(B), scale)
-        if n > MAX_MINORS:
-            moved = moved + NORMWISE * n * np.linalg.norm(A, axis=(1, 2)) * np.linalg.norm(
-                B, axis=(1, 2)
-            )
-        largest = np.maximum(largest, moved)
-        if j + 1 < n:
-            B = A @ B + P[:, j + 1, None, None] * np.eye(n)
+    summed = _products(np.abs(A)) * PRODUCTS_SHARE if n == MAX_MINORS else np.zeros(k)
+    normwise = BACKWARD / LEAST_ULPS * n * np.linalg.norm(A, axis=(1, 2))
+    # what overflows has no bound, and is not used
+    with np.errstate(over="ignore", invalid="ignore"):
+        for j in range(n):
+            moved = np.linalg.norm(B * scale.transpose(0, 2, 1), axis=(1, 2))
+            if n > MAX_MINORS:
+                moved = moved + normwise * np.linalg.norm(B, axis=(1, 2))
+            largest = np.maximum(largest, moved)
+            if j + 1 < n:
+                B = A @ B + P[:, j + 1, None, None] * np.eye(n)
     return P, largest + summed
 
 

@@ -113,8 +113,9 @@ def logarithm_error(z: Complex, families: Sequence[Discs]) -> Float:
         region = np.where(discs.together, np.abs(c[:, None] - c) + discs.radius, 0.0).max(axis=1)
         r = np.minimum(r, np.min(np.abs(z[:, None] - c) + region, axis=1))
     clear = (np.abs(z - 1.0) > r) & (np.abs(z + 1.0) > r)
-    inner = np.where(clear, (np.abs(z - 1.0) - r) * (np.abs(z + 1.0) - r), np.inf)
-    straight = np.where(clear, r / np.sqrt(inner), np.inf)
+    # roots first: the product of the distances may be beyond a float
+    inner = [np.sqrt(np.where(clear, np.abs(z - edge) - r, 1.0)) for edge in (1.0, -1.0)]
+    straight = np.where(clear, r / (inner[0] * inner[1]), np.inf)
     half = np.sqrt(0.5 * r)
     bent = np.where(half < 1.0, 2.0 * np.arcsin(np.minimum(half, 1.0)), np.inf)
     return np.asarray(np.minimum(straight, bent) + 8.0 * EPS)

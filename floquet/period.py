@@ -26,7 +26,6 @@ from floquet.integrate.methods import METHODS, Method
 from floquet.integrate.normal_form import normal_form
 from floquet.integrate.ode import parameter_values, shape, terms
 from floquet.integrate.step_length import fastest_rate, perron_root
-from floquet.integrate.taylor import Taylor
 from floquet.many import (
     MAX_FEW,
     ULPS,
@@ -93,7 +92,7 @@ def monodromy(equation: HillEquation | PeriodicEquation, *, method: str = "taylo
         _undamp(whole, eta, period)[:n, :n],
         runs.rounding[:n, :n],
         runs.ulps,
-        how.floor,
+        0.0,
         subtraction_error(equation, runs.scale) if eta else None,
     )
     z = sorted_eigenvalues(A)
@@ -151,15 +150,10 @@ class _Runs:
 
 
 def _of_few(equation: HillEquation, how: Method) -> _Runs:
-    size, period, eta, n = shape(equation), equation.period, equation.damping, equation.n
+    size, period, n = shape(equation), equation.period, equation.n
     plain = parameter_values(equation)
-    if how.diverges:
-        _finite(Taylor()(plain, size, period))
     undamped = parameter_values(equation, undamped=True)
-    if 0.5 * eta * period > how.most_decay:
-        whole = _damp(_finite(how.check(undamped, size, period)), eta, period)
-    else:
-        whole = _finite(how.check(plain, size, period))
+    whole = _finite(how.check(plain, size, period))
     U = _finite(how.run(undamped, size, 0.5 * period))
     Phi_u, scale, half = _from_half(U)
     fastest = fastest_rate(terms(undamped, size), undamped.C)

@@ -29,7 +29,7 @@ from floquet.batch.numpy_kernel import (
     Points,
     by_numpy,
 )
-from floquet.charpoly import MAX_MINORS, characteristic_polynomials
+from floquet.charpoly import MAX_MINORS, PRODUCTS_SHARE, characteristic_polynomials
 from floquet.integrate.step_length import MAX_EXPONENT, RADII, RADII_ORDER
 from floquet.integrate.taylor import MAX_STEPS
 
@@ -222,6 +222,7 @@ def defines(n: int, terms: int) -> dict[str, float]:
         "RADII": len(RADII),
         "RADII_ORDER": RADII_ORDER,
         "MAX_EXPONENT": MAX_EXPONENT,
+        "PRODUCTS_SHARE": PRODUCTS_SHARE,
     }
 
 

@@ -3,7 +3,8 @@
  * coordinates, TERMS cosines, Taylor ORDER, COLUMNS of U taken at once (a divisor of 2 N), BLOCK sums
  * kept in registers (a multiple of COLUMNS). These and every other number that Python has too are set
  * on the compiler's command line, by floquet/batch/c_kernel.py: POWERS, TINY (keeps v > 0 where a row
- * of S is 0), RADII, RADII_ORDER, MAX_EXPONENT, MAX_MINORS, MAX_LANES. */
+ * of S is 0), RADII, RADII_ORDER, MAX_EXPONENT, MAX_MINORS, MAX_LANES,
+ * PRODUCTS_SHARE. */
 
 #include <math.h>
 #include <stdlib.h>
@@ -257,18 +258,18 @@ static void polynomial(double A[N][N], double first[N][N], double *P, double *se
         second += a[i][i] * a[j][j] + a[i][j] * a[j][i];
         third += a[i][j] * a[j][i] * a[k][k];
     }
-    summed = fmax(second, third);
+    summed = PRODUCTS_SHARE * fmax(second, third);
 #endif
     for (int j = 0; j < N; j++) {
         double moved = 0.0, next[N][N];
         for (int r = 0; r < N; r++)
             for (int c = 0; c < N; c++) {
-                moved += fabs(B[r][c]) * first[c][r];
+                moved += B[r][c] * first[c][r] * (B[r][c] * first[c][r]);
                 next[r][c] = r == c ? P[j + 1] : 0.0;
                 for (int q = 0; q < N; q++)
                     next[r][c] += A[r][q] * B[q][c];
             }
-        *sensitivity = fmax(*sensitivity, moved);
+        *sensitivity = fmax(*sensitivity, sqrt(moved));
         memcpy(B, next, sizeof B);
     }
     *sensitivity += summed;

@@ -67,7 +67,8 @@ class Found:
         det(z I - A), A = 2 p a - I with the first blocks p of U^-1 and a of U, U the fundamental
         matrix at theta = pi.
     sensitivity : (k,) ndarray
-        How far a coefficient moves for a unit of relative rounding in the terms of U^-1 U.
+        How far a coefficient moves for a unit of relative rounding in the terms of U^-1 U, as
+        `characteristic_polynomials` says.
     growth : (k,) ndarray
         Bound on the Perron root of |U^-1| |U|; infinite where U has no inverse.
     rate : (k,) ndarray
