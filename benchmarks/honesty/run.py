@@ -5,9 +5,10 @@ import json
 import os
 import signal
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
-from dataclasses import asdict
+from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -15,9 +16,9 @@ import numpy as np
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
-from benchmarks.honesty import table
-from benchmarks.honesty.systems import GROUP, NAMES, SHARED, count, members
-from benchmarks.honesty.trial import Judged, answers_of, judged, trial, truth
+from benchmarks.honesty import edges, sensitivities, systems, table, trial
+from benchmarks.honesty.judge import Judged, judged, truth
+from benchmarks.honesty.systems import GROUP, members
 from compare.output import check_writable, write_whole
 from hill import HillEquation
 
@@ -33,6 +34,62 @@ LONGEST = 300
 # Violations that are printed; the rest is counted, and in the JSON.
 PRINTED = 60
 
+# Columns where there is no terminal to ask.
+WIDE = 100
+
+
+@dataclass(frozen=True)
+class Part:
+    """A part of the trial.
+
+    Attributes
+    ----------
+    names, routes, numbers : tuple of str
+        Its classes, who is asked, and the numbers that are judged.
+    share : float
+        Of the systems of the whole trial that this one has: its own are as much dearer.
+    groups : callable
+        From a class and how many systems of it are wanted to how many jobs these are.
+    size : int
+        Systems in a job.
+    one : callable
+        From a class, a seed, the job's number and `shrink` to what was judged.
+    """
+
+    names: tuple[str, ...]
+    routes: tuple[str, ...]
+    numbers: tuple[str, ...]
+    share: float
+    groups: Callable[[str, int], int]
+    size: int
+    one: Callable[[str, int, int, float], list[Judged]]
+
+
+def _bounds(kind: str, seed: int, group: int, shrink: float) -> list[Judged]:
+    return trial.trial(kind, seed, group, cvodes=group % CVODES_EVERY == 0, shrink=shrink)
+
+
+def _sensitivities(kind: str, seed: int, group: int, shrink: float) -> list[Judged]:
+    return sensitivities.trial(kind, seed, group, shrink=shrink)
+
+
+def _edges(kind: str, seed: int, number: int, shrink: float) -> list[Judged]:
+    return edges.trial(kind, seed, number, shrink=shrink)
+
+
+PARTS = {
+    "bounds": Part(
+        systems.NAMES, trial.ROUTES, trial.NUMBERS, 1.0, systems.count, GROUP, _bounds
+    ),
+    "sensitivities": Part(
+        sensitivities.NAMES, sensitivities.ROUTES, sensitivities.NUMBERS, 0.2, systems.count,
+        GROUP, _sensitivities,
+    ),
+    "edges": Part(
+        edges.NAMES, edges.ROUTES, edges.NUMBERS, 0.01, lambda _, wanted: wanted, 1, _edges
+    ),
+}  # fmt: skip
+
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run; 0 without violations, 1 with."""
@@ -41,17 +98,23 @@ def main(arguments: Sequence[str] | None = None) -> int:
         description="Hostile systems by every route, each bound held against ball arithmetic.",
     )
     parser.add_argument(
-        "--count", type=_at_least_one, default=COUNT, metavar="N",
-        help=f"systems in all, about; default {COUNT}",
+        "--part", nargs="+", choices=PARTS, metavar="PART", default=tuple(PARTS),
+        help=f"of {', '.join(PARTS)}; default all",
     )  # fmt: skip
-    parser.add_argument("--classes", nargs="+", choices=NAMES, metavar="CLASS", default=NAMES,
-                        help=f"of {', '.join(NAMES)}")  # fmt: skip
+    parser.add_argument(
+        "--count", type=_at_least_one, default=COUNT, metavar="N",
+        help=f"systems of the bounds, about, and as much less of the rest as it is dearer; "
+        f"default {COUNT}",
+    )  # fmt: skip
+    every = tuple(dict.fromkeys(name for part in PARTS.values() for name in part.names))
+    parser.add_argument("--classes", nargs="+", choices=every, metavar="CLASS", default=every,
+                        help=f"of {'; '.join(every)}")  # fmt: skip
     parser.add_argument("--seed", type=_not_negative, default=0, metavar="N")
     parser.add_argument("--jobs", type=_at_least_one, default=os.cpu_count() or 1, metavar="N")
-    parser.add_argument("--json", type=Path, metavar="FILE", help="the table and all violations")
+    parser.add_argument("--json", type=Path, metavar="FILE", help="the tables and all violations")
     parser.add_argument(
         "--show", nargs=2, metavar=("CLASS", "NUMBER"),
-        help="one system and all that is said of it; with the --seed of the run",
+        help="one system of the bounds and all that is said of it; with the --seed of the run",
     )  # fmt: skip
     parser.add_argument(
         "--shrink", type=_positive, default=1.0, metavar="FACTOR",
@@ -66,81 +129,89 @@ def main(arguments: Sequence[str] | None = None) -> int:
             check_writable(options.json)
         except (OSError, ValueError) as error:
             parser.error(f"--json {options.json}: {error}")
-    each = -(-options.count // len(options.classes))
-    tasks = [
-        (kind, options.seed, group)
-        for kind in options.classes
-        for group in range(count(kind, each))
-    ]
-    found = sorted(_run(tasks, options.jobs, options.shrink), key=_order(options.classes))
-    return report(found, options.json, options.seed)
+    console = Console(width=None if sys.stdout.isatty() else WIDE, highlight=False)
+    content: dict[str, Any] = {"seed": options.seed}
+    bad = 0
+    for name in options.part:
+        part = PARTS[name]
+        kinds = [kind for kind in part.names if kind in options.classes]
+        if not kinds:
+            continue
+        each = max(1, -(-int(options.count * part.share) // len(kinds)))
+        tasks = [(kind, group) for kind in kinds for group in range(part.groups(kind, each))]
+        job = partial(_one, name, options.seed, options.shrink)
+        found = sorted(_run(name, part.size, job, tasks, options.jobs), key=_order(kinds))
+        bad += report(console, part, found, options.seed)
+        content[name] = table.content(found, part.numbers)
+    console.print(table.LEGEND)
+    if options.json is not None:
+        write_whole(options.json, json.dumps(content, indent=1) + "\n")
+    return 1 if bad else 0
 
 
 def _order(kinds: Sequence[str]) -> Any:
     return lambda x: (kinds.index(x.kind), x.number)
 
 
-def _run(tasks: list[tuple[str, int, int]], jobs: int, shrink: float) -> Iterator[Judged]:
+def _run(
+    name: str,
+    size: int,
+    job: Callable[[tuple[str, int]], list[Judged]],
+    tasks: list[tuple[str, int]],
+    jobs: int,
+) -> Iterator[Judged]:
     progress = Progress(
-        TextColumn("systems"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn(),
+        TextColumn(name), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn(),
         TextColumn("{task.fields[bad]} violations"), console=Console(stderr=True),
     )  # fmt: skip
     with progress, ProcessPoolExecutor(jobs) as pool:
-        bar = progress.add_task("", total=GROUP * len(tasks), bad=0)
+        bar = progress.add_task("", total=size * len(tasks), bad=0)
         bad = 0
         # groups of all classes mixed, so that the time left is soon known
         mixed = np.random.default_rng(0).permutation(len(tasks))
-        futures = []
-        for kind, seed, group in (tasks[i] for i in mixed):
-            futures.append(pool.submit(_one, kind, seed, group, shrink))
-        for future in as_completed(futures):
+        for future in as_completed([pool.submit(job, tasks[i]) for i in mixed]):
             found = future.result()
             bad += sum(bool(x.violations) for x in found)
-            progress.update(bar, advance=GROUP, bad=bad)
+            progress.update(bar, advance=size, bad=bad)
             yield from found
 
 
-def _one(kind: str, seed: int, group: int, shrink: float) -> list[Judged]:
-    """One group, or the word that it does not end."""
+def _one(name: str, seed: int, shrink: float, task: tuple[str, int]) -> list[Judged]:
+    """One job, or the word that it does not end."""
+    kind, group = task
     signal.signal(signal.SIGALRM, _too_long)
     signal.alarm(LONGEST)
     try:
-        return trial(kind, seed, group, cvodes=group % CVODES_EVERY == 0, shrink=shrink)
+        return PARTS[name].one(kind, seed, group, shrink)
     except TimeoutError as error:
-        n = members(kind, seed, group)[0].n
-        return [Judged(kind, GROUP * group, n, "all", "failed", {"other": str(error)})]
+        number = group * PARTS[name].size
+        return [Judged(kind, number, 0, "all", "failed", {"other": str(error)})]
     finally:
         signal.alarm(0)
 
 
 def _too_long(*_: Any) -> None:
-    raise TimeoutError(f"the group takes more than {LONGEST} s")
+    raise TimeoutError(f"the job takes more than {LONGEST} s")
 
 
-def report(found: list[Judged], path: Path | None, seed: int) -> int:
-    """Print the tables and the violations, write the JSON."""
-    console = Console(width=None if sys.stdout.isatty() else 200, highlight=False)
-    console.print(table.lines(found, "kind", "class"))
-    console.print(table.lines(found, "route", "route"))
-    console.print(table.cells(found))
+def report(console: Console, part: Part, found: list[Judged], seed: int) -> int:
+    """Print the tables and the violations; return how many there are."""
+    for field, first in (("kind", "class"), ("route", "route")):
+        for one in table.tables(found, part.numbers, field, first):
+            console.print(one)
+            console.print()
     bad = [x for x in found if x.violations]
+    if bad:
+        console.print(table.cells(found, part.numbers, part.routes))
+        console.print()
     for x in bad[:PRINTED]:
         console.print(f"{x.kind} {x.number} (n = {x.n}), {x.route}: {_said(x)}", soft_wrap=True)
     if len(bad) > PRINTED:
         console.print(f"and {len(bad) - PRINTED} more")
-    if bad:
+    if bad and part.one is _bounds:
         x = bad[0]
         console.print(f'see one by: --seed {seed} --show "{x.kind}" {x.number}', soft_wrap=True)
-    if path is not None:
-        groups = table.by(found, "kind", "route").items()
-        content = {
-            "seed": seed,
-            "shared": SHARED,
-            "lines": [{"class": k, "route": r} | asdict(table.line(g)) for (k, r), g in groups],
-            "violations": [asdict(x) for x in bad],
-        }
-        write_whole(path, json.dumps(content, indent=1) + "\n")
-    return 1 if bad else 0
+    return len(bad)
 
 
 def _said(x: Judged) -> str:
@@ -160,7 +231,7 @@ def show(kind: str, seed: int, number: int) -> int:
         print("P =", ", ".join(p.str(20, radius=False) for p in known.P))
         print(f"T = {known.growth.T.str(20)}, {known.growth.truth}")
     worst = 0
-    for route, answer in answers_of(equations, place, shared=kind != "known").items():
+    for route, answer in trial.answers_of(equations, place, shared=kind != "known").items():
         print(f"\n{route}:", answer.refused or answer.failed or answer.verdict, answer.warned)
         if answer.polynomial is None or answer.errors is None:
             continue
@@ -168,7 +239,8 @@ def show(kind: str, seed: int, number: int) -> int:
         print("  reported", ", ".join(f"{p:.3g}" for p in answer.errors))
         x = judged(kind, number, route, answer, known)
         print(f"  T = {answer.T:.17g} +- {answer.T_error:.3g}")
-        print(f"  true/reported: P {x.P_ratio}, T {x.T_ratio}")
+        shares = ", ".join(f"{name} {m.ratio:.3g}" for name, m in x.measured.items())
+        print(f"  true/reported: {shares or 'unknown'}")
         print(f"  {_said(x) or 'holds'}")
         worst = max(worst, bool(x.violations))
     return worst
@@ -185,8 +257,8 @@ def repr_of(e: HillEquation) -> str:
 
 
 def _named(parser: argparse.ArgumentParser, kind: str, number: str) -> tuple[str, int]:
-    if kind not in NAMES:
-        parser.error(f"--show {kind!r}: must be one of {', '.join(NAMES)}")
+    if kind not in systems.NAMES:
+        parser.error(f"--show {kind!r}: must be one of {', '.join(systems.NAMES)}")
     try:
         found = _not_negative(number)
         members(kind, 0, found // GROUP)[found % GROUP]

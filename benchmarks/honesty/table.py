@@ -1,65 +1,97 @@
-"""The trial's tables: a class a line, and a class and route a cell."""
+"""The trial's tables: a class a line, or a route; each fits into 80 columns."""
 
 from collections import defaultdict
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
 from rich.table import Table
 
-from benchmarks.honesty.trial import ROUTES, Judged
+from benchmarks.honesty.judge import INFLATED, POOR, Judged
 
-KINDS = ("P", "T", "verdict", "NaN", "other")
+LEGEND = f"""\
+beyond: systems that the arbiter gives up. median, 99%, most: of the true error
+over the reported one; above 1 is a violation. worth: the median of the reported
+error over the true one, which counts as an ulp at least. >1e6: bounds so many
+times too large; silent: those of them below {POOR:.0e} of their number, with a
+verdict, so that nothing says so. unjudged: the arbiter's ball is too wide."""
 
-# Reported over true: beyond it a bound says nothing any more.
-INFLATED = 1e6
+
+@dataclass(frozen=True)
+class Number:
+    """What is counted of one number over some answers.
+
+    Attributes
+    ----------
+    ratio : tuple of float
+        True error over the reported one: median, 99 %, largest.
+    slack : float
+        Reported over true, the median.
+    inflated, silent : int
+        Bounds more than `INFLATED` times too large; and those without a word that says so.
+    unjudged : int
+        Answers where the arbiter's own number is too wide.
+    """
+
+    ratio: tuple[float, float, float]
+    slack: float
+    inflated: int
+    silent: int
+    unjudged: int
 
 
 @dataclass(frozen=True)
 class Line:
-    """What is counted over some answers."""
+    """What is counted over some answers; `beyond` are systems, the rest are answers."""
 
     systems: int
+    beyond: int
     answers: int
     violations: dict[str, int]
     refused: int
     undecided: float
-    T_skipped: int
-    P_ratio: tuple[float, float, float]
-    T_ratio: tuple[float, float, float]
-    P_slack: float
-    T_slack: float
-    P_inflated: int
-    T_inflated: int
+    numbers: dict[str, Number]
 
 
-def line(found: Sequence[Judged]) -> Line:
+def line(found: Sequence[Judged], names: Sequence[str]) -> Line:
     """Count."""
     answered = [x for x in found if x.status == "answered"]
     return Line(
         systems=len({(x.kind, x.number) for x in found}),
+        beyond=len({(x.kind, x.number) for x in found if x.beyond}),
         answers=len(found),
-        violations={kind: sum(kind in x.violations for x in found) for kind in KINDS},
+        violations={kind: sum(kind in x.violations for x in found) for kind in wrongs(names)},
         refused=sum(x.status == "refused" for x in found),
         undecided=sum(x.undecided for x in answered) / max(len(answered), 1),
-        T_skipped=sum(x.T_skipped for x in answered),
-        P_ratio=_quantiles(x.P_ratio for x in answered),
-        T_ratio=_quantiles(x.T_ratio for x in answered),
-        P_slack=_quantiles(x.P_slack for x in answered)[0],
-        T_slack=_quantiles(x.T_slack for x in answered)[0],
-        P_inflated=sum((x.P_slack or 0.0) > INFLATED for x in answered),
-        T_inflated=sum((x.T_slack or 0.0) > INFLATED for x in answered),
+        numbers={name: _number(answered, name) for name in names},
     )
 
 
-def _quantiles(values: Iterable[float | None]) -> tuple[float, float, float]:
-    """Median, 99 % and largest."""
-    some = np.array([x for x in values if x is not None])
-    if not len(some):
+def wrongs(names: Sequence[str]) -> tuple[str, ...]:
+    """What can be wrong with an answer that has these numbers."""
+    return (*names, "verdict", "NaN", "other")
+
+
+def _number(answered: Sequence[Judged], name: str) -> Number:
+    measured = [x.measured[name] for x in answered if name in x.measured]
+    return Number(
+        ratio=_quantiles(m.ratio for m in measured),
+        slack=_quantiles(m.slack for m in measured)[0],
+        inflated=sum(m.slack > INFLATED for m in measured),
+        silent=sum(m.inflated for m in measured),
+        unjudged=sum(name in x.unjudged for x in answered),
+    )
+
+
+def _quantiles(values: Iterable[float]) -> tuple[float, float, float]:
+    """Median, 99 % and the largest."""
+    known = np.sort(np.fromiter(values, float))
+    if not len(known):
         return (0.0, 0.0, 0.0)
-    middle, high = np.quantile(some, [0.5, 0.99], method="higher")
-    return float(middle), float(high), float(np.max(some))
+    # not interpolated: one of them may be infinite
+    middle, last = (known[int(q * (len(known) - 1))] for q in (0.5, 0.99))
+    return float(middle), float(last), float(known[-1])
 
 
 def by(found: Iterable[Judged], *names: str) -> dict[Any, list[Judged]]:
@@ -71,52 +103,69 @@ def by(found: Iterable[Judged], *names: str) -> dict[Any, list[Judged]]:
     return groups
 
 
-def lines(found: Sequence[Judged], name: str, first: str) -> Table:
-    """A line a class, or a route."""
-    table = Table(title=f"The bounds, {first} by {first}", box=None, pad_edge=False)
-    table.add_column(first, no_wrap=True)
-    heads = ("systems", "answers", "P", "T", "verdict", "NaN", "other", "refused", "undecided",
-             "P true/reported", "T true/reported", "P rep./true", "T rep./true",
-             "P > 1e6", "T > 1e6", "T unjudged")  # fmt: skip
-    for head in heads:
-        table.add_column(head, justify="right")
-    groups = list(by(found, name).items())
-    for key, some in [*groups, ("all", list(found))]:
-        one = line(some)
-        table.add_row(
-            key, str(one.systems), str(one.answers), *map(str, one.violations.values()),
-            str(one.refused), f"{one.undecided:.1%}", _three(one.P_ratio), _three(one.T_ratio),
-            f"{one.P_slack:.3g}", f"{one.T_slack:.3g}", str(one.P_inflated), str(one.T_inflated),
-            str(one.T_skipped),
-        )  # fmt: skip
+def tables(found: Sequence[Judged], names: Sequence[str], field: str, first: str) -> list[Table]:
+    """What is wrong, and what the bounds are worth; a line a class, or a route.
+
+    Parameters
+    ----------
+    names : sequence of str
+        The numbers of an answer.
+    field, first : str
+        By which of an answer's fields, and what that is called.
+    """
+    lines = {key: line(some, names) for key, some in by(found, field).items()}
+    lines["all"] = line(found, names)
+    return [_counts(lines, names, first), *(_worth(lines, name, first) for name in names)]
+
+
+def _counts(lines: dict[str, Line], names: Sequence[str], first: str) -> Table:
+    heads = ("systems", "beyond", "asked", *wrongs(names), "refused", "undecided")
+    table = _table(f"Violations, {first} by {first}", first, heads)
+    for key, one in lines.items():
+        counts = (one.systems, one.beyond, one.answers, *one.violations.values(), one.refused)
+        table.add_row(key, *map(str, counts), f"{one.undecided:.1%}")
     return table
 
 
-def _three(values: tuple[float, float, float]) -> str:
-    return " ".join(f"{x:.2g}" for x in values)
+def _worth(lines: dict[str, Line], name: str, first: str) -> Table:
+    heads = ("median", "99%", "most", "worth", ">1e6", "silent", "unjudged")
+    table = _table(f"{name}: true over reported error, and reported over true", first, heads)
+    for key, one in lines.items():
+        n = one.numbers[name]
+        shares = (f"{x:.1g}" if x < 0.095 else f"{x:.2f}" for x in n.ratio)
+        counts = map(str, (n.inflated, n.silent, n.unjudged))
+        table.add_row(key, *shares, f"{n.slack:.3g}", *counts)
+    return table
 
 
-def cells(found: Sequence[Judged]) -> Table:
-    """Violations of P / T / verdict / NaN and other, a class a line and a route a column."""
-    table = Table(
-        title="Violations of P/T/verdict/NaN and other; a dot where there are none",
-        box=None,
-        pad_edge=False,
-    )
-    table.add_column("class", no_wrap=True)
-    for route in ROUTES:
-        table.add_column(route, justify="right")
+def _table(title: str, first: str, heads: Iterable[str]) -> Table:
+    table = Table(title=title, title_justify="left", box=None, pad_edge=False, padding=(0, 1, 0, 0))
+    table.add_column(first, no_wrap=True)
+    for head in heads:
+        table.add_column(head, justify="right", no_wrap=True)
+    return table
+
+
+def cells(found: Sequence[Judged], names: Sequence[str], routes: Sequence[str]) -> Table:
+    """Violations, a class a line and a route a column."""
+    table = _table("Violations, class by route; a dot where there are none", "class", routes)
     groups = by(found, "kind", "route")
     for kind in by(found, "kind"):
-        table.add_row(kind, *(_cell(groups.get((kind, route), [])) for route in ROUTES))
+        row = []
+        for route in routes:
+            some = groups.get((kind, route), [])
+            count = sum(bool(x.violations) for x in some)
+            row.append(str(count or ".") if some else "")
+        table.add_row(kind, *row)
     return table
 
 
-def _cell(some: list[Judged]) -> str:
-    if not some:
-        return ""
-    counts = line(some).violations
-    rest = counts["NaN"] + counts["other"]
-    if not sum(counts.values()):
-        return "."
-    return f"{counts['P']}/{counts['T']}/{counts['verdict']}/{rest}"
+def content(found: Sequence[Judged], names: Sequence[str]) -> dict[str, Any]:
+    """What JSON holds: every class and route, every violation, every bound inflated in silence."""
+    groups = by(found, "kind", "route").items()
+    silent = [x for x in found if any(m.inflated for m in x.measured.values())]
+    return {
+        "lines": [{"class": k, "route": r} | asdict(line(g, names)) for (k, r), g in groups],
+        "violations": [asdict(x) for x in found if x.violations],
+        "silent": [asdict(x) for x in silent],
+    }

@@ -13,6 +13,7 @@ from compare.charts.result import Chart
 from compare.edges.interpolated import InterpolatedField, axes_of, on_surface
 from compare.edges.on_chart import ORDERS, merged, stations, tongues
 from compare.edges.tongue import Tongue
+from compare.stability.indicators import ZERO_SHARE, ZERO_TO
 from hill.averaging import Resonance, critical_gamma, half_width
 
 Float = NDArray[np.floating[Any]]
@@ -143,7 +144,9 @@ def _edge_error(curves: InterpolatedField, tongue: Tongue) -> Float:
     by sum |df/dp_j| error / |df/dOmega|. Doubled, for what the first order leaves out.
     """
     kind, edge_function = tongue.resonance.indicator, curves.reading.edge_function
-    worst = np.full(len(tongue.y), 4.0 * EPS * float(np.max(tongue.upper)))
+    # what the edges were solved to, and an ulp or two of them
+    found_to = ZERO_TO + (ZERO_SHARE + 4.0 * EPS) * float(np.max(tongue.upper))
+    worst = np.full(len(tongue.y), found_to)
     for k, y in enumerate(map(float, tongue.y)):
         for Omega in map(float, (tongue.lower[k], tongue.upper[k])):
             eta = curves.equation(Omega, y).damping

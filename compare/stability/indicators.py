@@ -164,7 +164,13 @@ def deepest(f: Function, lo: float, hi: float) -> tuple[float, float]:
     return centre, value
 
 
-def zero(f: Function, lo: float, hi: float, *, xtol: float = 1e-13, rtol: float = 1e-14) -> float:
+# How near a zero is found to a sign change: to the first and to the second's share of it.
+ZERO_TO, ZERO_SHARE = 1e-13, 1e-14
+
+
+def zero(
+    f: Function, lo: float, hi: float, *, xtol: float = ZERO_TO, rtol: float = ZERO_SHARE
+) -> float:
     """The sign change of f between lo and hi, to the larger of `xtol` and its share `rtol`."""
     return float(brentq(lambda x: f(np.array([x]))[0], lo, hi, xtol=xtol, rtol=rtol))
 
