@@ -13,6 +13,7 @@ from floquet.accuracy import amplitudes, bounded
 from floquet.charpoly import MAX_EXACT, characteristic_polynomial, characteristic_polynomials
 from floquet.eigenvalues import discs_from_matrix, discs_from_polynomial
 from floquet.growth import _beyond
+from floquet.integrate.step_length import fastest_rate
 from floquet.sensitivity.equation import _of_multiplier, _of_z
 from hill.stability import by_signs, root_radii, separators
 
@@ -377,3 +378,10 @@ def test_growth_and_its_slope_are_bounded_in_the_whole_disc(of: str) -> None:
     signs = (1.0, -1.0) if of == "z" else (1.0,)
     apart = np.min([np.abs(slope - sign * found.slope[:, None]) for sign in signs], axis=0)
     assert np.all(apart <= found.slope_error[:, None] + rounding)
+
+
+def test_the_fastest_rate_is_of_all_that_moves() -> None:
+    """4 + 2 cos 3 tau and a damping of 5: sqrt 6, and 5, and 3; of moduli, whatever their sign."""
+    four, two, five = (np.array([[x]]) for x in (4.0, -2.0, -5.0))
+    found = fastest_rate([(four, 0.0), (two, 3.0)], five)
+    assert found == pytest.approx(np.sqrt(6.0) + 5.0 + 3.0)
