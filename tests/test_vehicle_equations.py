@@ -347,3 +347,21 @@ def test_parameters_move_an_equation_as_they_say() -> None:
         for which in ("F", "G"):
             a, b, c = (getattr(x, which) for x in at)
             assert a - 2 * b + c == pytest.approx(np.zeros_like(a), abs=1e-12 * np.abs(a).max())
+
+
+def test_an_end_that_is_held_does_not_move() -> None:
+    """A thrust or a sensor there does nothing at all, not even by rounding."""
+    for ends, rate in ((("free", "pinned"), 0.2), (("clamped", "clamped"), 0.2)):
+        v = Vehicle(
+            sections=(Section(2.0, (3.0, 4.0), 5.0),),
+            ends=ends,  # type: ignore[arg-type]
+            thrust=Thrust(1.0),
+            sensors=(Sensor(1.0, 0.5, rate), Sensor(2.0, 0.3)),
+            modes=3,
+        )
+        eq = v.equation(1.0, 0.1)
+        assert isinstance(eq, HillEquation)
+        if ends[0] == "free":
+            assert not np.any(eq.G)
+    at_the_end = replace(v, thrust=Thrust(1.0, 1.5), sensors=(Sensor(2.0, 0.3, 0.1),))
+    assert isinstance(at_the_end.equation(1.0, 0.1), HillEquation)

@@ -13,7 +13,10 @@ from scipy.optimize import brentq
 from vehicles import finite_elements, random_vehicle
 
 from hill import PointMass, Refused, Section, Vehicle
+from hill.vehicle.mesh import mesh
 from hill.vehicle.modes import Modes, modes, rigid_motions
+from hill.vehicle.series import Series, series
+from hill.vehicle.stiffness import grouped
 from hill.vehicle.vehicle import End
 
 ONE = Section(2.0, 3.0, 5.0)
@@ -233,3 +236,29 @@ def test_too_uneven() -> None:
     v = Vehicle(sections=(Section(1.0, 1.0, (1e-13, 1.0)),))
     with pytest.raises(Refused, match="EI from 1e-13 to 1"):
         modes(v, 2)
+
+
+def test_a_rotating_beam() -> None:
+    """Wright's clamped beam under N = m Om^2 (L^2 - x^2)/2, its printed digits (outside.json)."""
+    printed = {
+        0: (3.516, 22.035, 61.697),
+        1: (3.682, 22.181, 61.842),
+        6: (7.360, 26.809, 66.684),
+        12: (13.170, 37.603, 79.615),
+    }
+    length, m, EI = math.sqrt(1000.0), 100.0, 1e8
+    v = Vehicle(sections=(Section(length, m, EI),), ends=("clamped", "free"))
+    cut = mesh(v, 4e4)
+    x, half = cut.nodes[:-1] + cut.half, cut.half
+    for speed, expected in printed.items():
+        # P = -N over EI/l^2, a quadratic in t = (x - middle)/half
+        size = -0.5 * m * speed**2 * length**2 * length**2 / EI
+        force = size * np.stack([1.0 - x**2, -2.0 * x * half, -(half**2)], axis=1)
+        solutions = series(cut, force)
+
+        def below(lam: float, solutions: Series = solutions) -> int:
+            return grouped(solutions, cut, v.ends, lam).below
+
+        for number, omega in enumerate(expected, start=1):
+            low, high = ((omega + off) * cut.scales.time for off in (-5.5e-4, 5.5e-4))
+            assert (below(low**2), below(high**2)) == (number - 1, number)

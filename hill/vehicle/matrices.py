@@ -76,16 +76,22 @@ class Structure:
     @property
     def arm(self) -> Float:
         """Deflection at the thrust, (n,)."""
-        return np.asarray(self.modes.shapes.nodes[:, self.thrust_node, Y])
+        x = float(self.modes.mesh.nodes[self.thrust_node])
+        return np.asarray(self.modes.shapes.nodes[:, self.thrust_node, Y] * (not self.held(x, Y)))
 
     def rotation(self, x: float) -> Float:
         """Rotation at a station over the length, (n,)."""
-        return np.asarray(self.modes.shapes.at(x)[:, PSI])
+        return np.asarray(self.modes.shapes.at(x)[:, PSI] * (not self.held(x, PSI)))
+
+    def held(self, x: float, what: int) -> bool:
+        """Whether an end at x holds y or psi; what is left of it there is rounding."""
+        holds = {Y: ("pinned", "clamped"), PSI: ("clamped",)}[what]
+        return any(end in holds and x == at for end, at in zip(self.ends, (0.0, 1.0), strict=True))
 
     def followed(self, vehicle: Vehicle) -> Float:
         """Direction of the thrust against the axis, (n,), as it turns with the vehicle."""
         follows = vehicle.thrust.direction == "follower"
-        return np.asarray(follows * self.modes.shapes.nodes[:, self.thrust_node, PSI])
+        return np.asarray(follows * self.rotation(float(self.modes.mesh.nodes[self.thrust_node])))
 
     def gimbaled(self, vehicle: Vehicle) -> tuple[Float, Float]:
         """Turn of the gimbal by the coordinates and by their rates (times a time), (n,) each."""
