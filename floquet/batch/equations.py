@@ -15,9 +15,10 @@ from floquet.accuracy import moved_by_data
 from floquet.arrays import EPS, Float
 from floquet.batch import c_kernel
 from floquet.batch.balance import balanced
+from floquet.batch.general import general_polynomials
 from floquet.batch.numpy_kernel import Found, March, Points, by_numpy
 from floquet.period import MAX_TERM_GROWTH, monodromy
-from hill import HillEquation
+from hill import HillEquation, PeriodicEquation
 
 Kernel = Literal["auto", "compiled", "numpy"]
 KERNELS = ("auto", "compiled", "numpy")
@@ -73,16 +74,20 @@ class _Forcing:
         return _Forcing(self.Omega[index], self.gamma[index], self.eta[index])
 
 
-def polynomials(equations: Sequence[HillEquation], *, kernel: Kernel = "auto") -> Polynomials:
-    """P(z) of many equations of one size, over half a period each.
+def polynomials(
+    equations: Sequence[HillEquation | PeriodicEquation], *, kernel: Kernel = "auto"
+) -> Polynomials:
+    """P(z) of many equations of one size, over half a period each; or of their multipliers.
 
     Quickest where many equations share F, G and H and differ in `Omega`, `gamma` and `eta`;
     `sweep` takes those as arrays.
 
     Parameters
     ----------
-    equations : sequence of HillEquation
-        All with the same number of coordinates; `eta` one number.
+    equations : sequence of HillEquation or PeriodicEquation
+        All with the same number of coordinates; `eta` one number. Where one is a
+        `PeriodicEquation`, all are taken as such: the polynomials are those of the multipliers,
+        (k, m + 1), over the whole period, by numpy.
     kernel : {"auto", "compiled", "numpy"}, optional
         "auto" builds the C kernel where there is work for it, `WORTH_COMPILING`, and a compiler.
 
@@ -95,6 +100,15 @@ def polynomials(equations: Sequence[HillEquation], *, kernel: Kernel = "auto") -
     """
     if not equations:
         return Polynomials(np.empty((0, 0)), np.empty(0))
+    if any(isinstance(equation, PeriodicEquation) for equation in equations):
+        if kernel not in ("auto", "numpy"):
+            raise ValueError(f"kernel = {kernel!r}: must be auto or numpy for general equations")
+        general = [e.general() if isinstance(e, HillEquation) else e for e in equations]
+        return Polynomials(*general_polynomials(general))
+    return _special([e for e in equations if isinstance(e, HillEquation)], kernel)
+
+
+def _special(equations: Sequence[HillEquation], kernel: Kernel) -> Polynomials:
     n = equations[0].n
     if any(equation.n != n for equation in equations):
         raise ValueError("equations: must all have the same number of coordinates")
