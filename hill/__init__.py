@@ -3,6 +3,7 @@
 from hill.beams import SteppedBeam, UniformBeam
 from hill.determinant.converged import characteristic
 from hill.determinant.result import Characteristic
+from hill.determinant.root_distance import RootDistance, root_distance
 from hill.equation import HillEquation
 from hill.errors import LongitudinalResonance, Refused, Singular
 from hill.periodic import Fourier, PeriodicEquation
@@ -28,6 +29,7 @@ __all__ = [
     "PeriodicSystem",
     "PointMass",
     "Refused",
+    "RootDistance",
     "Section",
     "Sensor",
     "Singular",
@@ -39,5 +41,6 @@ __all__ = [
     "Vehicle",
     "characteristic",
     "critical_thrust",
+    "root_distance",
     "with_more_modes",
 ]

@@ -56,15 +56,34 @@ def multipliers(polynomial: Float, errors: Float, period: float, log_scale: floa
     ----------
     polynomial, errors : (m + 1,) ndarray
         Monic in y, mu = y exp(log_scale), highest power first; bounds on the absolute errors, the
-        first one 0. The product of all |y| is 1, as far as the last coefficient is: the largest is
-        no smaller.
+        first one 0. The product of all |y| is 1, as far as the last coefficient is.
     period, log_scale : float
     """
     y = polynomial_roots(polynomial)
-    y = y[np.argsort(-np.abs(y), kind="stable")]
+    size = np.maximum(np.abs(y), TINY)
+    radius = root_radii(polynomial[None], errors[None], y[None], size[None])[0]
+    beyond = _beyond(polynomial, errors, log_scale)
+    return in_discs(y, radius, period, log_scale, errors[-1], beyond)
+
+
+def in_discs(
+    y: Complex, radius: Float, period: float, log_scale: float, last: float, beyond: bool = False
+) -> Multipliers:
+    """From discs, each of which holds a root of its own.
+
+    Parameters
+    ----------
+    y : (m,) complex ndarray
+        The product of all |y| is 1, to within `last`: the largest is no smaller.
+    radius : (m,) ndarray
+    period, log_scale, last : float
+    beyond : bool
+        Whether growth is shown otherwise.
+    """
+    order = np.argsort(-np.abs(y), kind="stable")
+    y, radius = y[order], radius[order]
     size = np.abs(y)
-    radius = root_radii(polynomial[None], errors[None], y[None], np.maximum(size, TINY)[None])[0]
-    least = (abs(polynomial[-1]) - errors[-1]) ** (1.0 / len(y)) if errors[-1] < 1.0 else 0.0
+    least = (1.0 - last) ** (1.0 / len(y)) if last < 1.0 else 0.0
     with np.errstate(divide="ignore", over="ignore", under="ignore"):
         logs = [np.log(np.max(x)) for x in (np.append(size - radius, least), size, size + radius)]
         exponents: Complex = np.full(len(y), -np.inf, complex)
@@ -79,7 +98,7 @@ def multipliers(polynomial: Float, errors: Float, period: float, log_scale: floa
     verdict: Verdict = "undecided"
     if high < 0.0:
         verdict = "stable"
-    elif low > 0.0 or _beyond(polynomial, errors, log_scale):
+    elif low > 0.0 or beyond:
         verdict = "unstable"
     return Multipliers(mu, exponents, off + rounding, T, float(max(high - T, T - low)), verdict)
 

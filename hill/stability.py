@@ -74,9 +74,7 @@ def stability_of(polynomial: Float, error: ArrayLike, Omega: float, eta: float) 
     """
     errors = np.broadcast_to(np.asarray(error, float), polynomial.shape)
     found = stabilities(polynomial[None], errors[None], np.array([Omega]), np.array([eta]))
-    verdict: Any = str(found.verdict[0])
-    T, T_error = float(found.T[0]), float(found.T_error[0])
-    return Stability(found.z[0], found.radius[0], T, T_error, verdict)
+    return _first(found)
 
 
 def stabilities(polynomials: Float, errors: Float, Omega: Float, eta: Float) -> Stabilities:
@@ -91,11 +89,41 @@ def stabilities(polynomials: Float, errors: Float, Omega: Float, eta: Float) -> 
     )
 
 
+def stability_in_discs(z: Complex, radius: Float, Omega: float, eta: float) -> Stability:
+    """T and the verdict from discs, each of which holds a root z of its own; of one P.
+
+    Parameters
+    ----------
+    z, radius : (n,) ndarray
+    """
+    order = np.lexsort((z.imag, -z.real))
+    z, radius = z[None, order], radius[None, order]
+    real = _is_real(z, radius)
+    inside = np.all(real & (np.abs(z.real) + radius < 1.0), axis=1)
+    nothing = np.zeros(1, bool)
+    return _first(_judged(z, radius, (inside, nothing), np.array([Omega]), np.array([eta])))
+
+
+def _first(found: Stabilities) -> Stability:
+    verdict: Any = str(found.verdict[0])
+    T, T_error = float(found.T[0]), float(found.T_error[0])
+    return Stability(found.z[0], found.radius[0], T, T_error, verdict)
+
+
 def _stabilities(p: Float, errors: Float, Omega: Float, eta: Float) -> Stabilities:
     errors = errors.copy()
     errors[:, 0] = 0.0
     z = roots(p)
-    radius = root_radii(p, errors, z)
+    between = 0.5 * (z.real[:, :-1] + z.real[:, 1:])
+    shown = by_signs(p, errors, between, np.pi * eta / Omega)
+    return _judged(z, root_radii(p, errors, z), shown, Omega, eta)
+
+
+def _judged(
+    z: Complex, radius: Float, shown: tuple[Bool, Bool], Omega: Float, eta: Float
+) -> Stabilities:
+    """From discs, and what is shown otherwise: that all z are inside the edges, or one beyond."""
+    inside, beyond = shown
     real = _is_real(z, radius)
     x, y = np.abs(z.real), np.abs(z.imag)
     outer = log_R(x + radius, np.where(real, 0.0, y + radius))
@@ -106,8 +134,6 @@ def _stabilities(p: Float, errors: Float, Omega: Float, eta: Float) -> Stabiliti
     low = to_T * inner.max(axis=1) * (1.0 - 8.0 * EPS) - eta - rounding
     T = np.clip(to_T * log_R(x, np.where(real, 0.0, y)).max(axis=1) - eta, low, high)
 
-    between = 0.5 * (z.real[:, :-1] + z.real[:, 1:])
-    inside, beyond = by_signs(p, errors, between, np.pi * eta / Omega)
     stable = (high < 0.0) | (inside & (eta >= 0.0))
     unstable = ((low > 0.0) | beyond) & ~stable
     # all z are shown to be real and within [-1, 1]: R is 1

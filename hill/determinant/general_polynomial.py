@@ -15,12 +15,8 @@ import numpy as np
 
 from hill.arrays import EPS, Float
 from hill.determinant.finite import OVERFLOW
-from hill.determinant.general import folded
-from hill.determinant.general_rounding import motion
-from hill.determinant.general_tail import LEFT, Tail, kept, tail
-from hill.determinant.pencil import Pencil, pencil
+from hill.determinant.general_values import Determinant, values
 from hill.multipliers import newton_polygon
-from hill.periodic import PeriodicEquation
 
 # On the measured defect.
 SAFETY = 4.0
@@ -92,48 +88,29 @@ class _Circle:
     relative: float
 
 
-def polynomial(equation: PeriodicEquation) -> Polynomial:
+def polynomial(d: Determinant) -> Polynomial:
     """The polynomial of the multipliers.
 
     Raises
     ------
-    ValueError
-        Omega is too small for the determinant.
     OverflowError
         A coefficient is too large for a float.
     """
-    p = pencil(equation)
-    t = tail(p)
-    try:
-        K = kept(p, t)
-    except ValueError as refused:
-        raise ValueError(f"Omega = {equation.Omega:g}: {refused}") from None
-    found = [_circle(p, t, K, 0.0)]
-    while len(found) < MOST_CIRCLES and (shift := _better(p, found)) is not None:
-        found.append(_circle(p, t, K, shift))
-    c, errors, data = _combined(p, found)
+    found = [_circle(d, 0.0)]
+    while len(found) < MOST_CIRCLES and (shift := _better(d, found)) is not None:
+        found.append(_circle(d, shift))
+    c, errors, data = _combined(d, found)
     if not (np.all(np.isfinite(c)) and np.all(np.isfinite(errors + data))):
         raise OverflowError(OVERFLOW)
-    harmonics = (K + 1) * p.reach - p.reach // 2 - 1
-    return Polynomial(c[::-1], errors[::-1], data[::-1], 2.0 * np.pi * _mean(p), (harmonics,))
+    return Polynomial(c[::-1], errors[::-1], data[::-1], 2.0 * np.pi * d.mean, (d.harmonics,))
 
 
-def _mean(p: Pencil) -> float:
-    """Ln r/2 pi."""
-    return -p.trace / (p.order * p.Omega)
-
-
-def _mean_error(p: Pencil) -> float:
-    """What m ln r is off: the trace's own error, and roundings of it."""
-    return 2.0 * np.pi * (p.trace_error + 4.0 * EPS * abs(p.trace)) / p.Omega
-
-
-def _circle(p: Pencil, t: Tail, K: int, shift: float) -> _Circle:
+def _circle(d: Determinant, shift: float) -> _Circle:
     """By samples at about |y| = exp(2 pi shift)."""
     best = None
     for more in SHIFTS:
         try:
-            found = _samples(p, t, K, shift + more)
+            found = _samples(d, shift + more)
         except np.linalg.LinAlgError:
             continue
         if best is None or found.relative < best.relative:
@@ -145,17 +122,17 @@ def _circle(p: Pencil, t: Tail, K: int, shift: float) -> _Circle:
     return best
 
 
-def _samples(p: Pencil, t: Tail, K: int, shift: float) -> _Circle:
+def _samples(d: Determinant, shift: float) -> _Circle:
     """By samples at |y| = exp(2 pi shift)."""
-    m = p.order
+    m = d.order
     count = m + 1 + SPARE + (m + SPARE + 1) % 2
     half = np.arange(count // 2 + 1)
-    f = folded(p, t, K, _mean(p) + shift + 1j * half / count)
-    moved = motion(p, t, f)
-    top = int(np.max(f.exponent))
-    values = f.mantissa * np.ldexp(1.0, np.maximum(f.exponent - top, -1000))
-    means = np.fft.irfft(values.conj(), count)
+    found = values(d, shift + 1j * half / count)
+    top = int(np.max(found.exponent))
+    sampled = found.mantissa * np.ldexp(1.0, np.maximum(found.exponent - top, -1000))
+    means = np.fft.irfft(sampled.conj(), count)
     share = np.where((half == 0) | (half == count // 2), 1.0, 2.0) / count
+    size = share * np.abs(sampled)
 
     # means = c_k exp(weight_k)
     k = np.arange(m + 1)
@@ -163,39 +140,39 @@ def _samples(p: Pencil, t: Tail, K: int, shift: float) -> _Circle:
     expected = np.zeros(len(means))
     expected[[0, m]] = np.exp(np.minimum(weight[[0, m]], MOST_EXPONENT)) * [(-1.0) ** m, 1.0]
     defect = float(np.max(np.abs((means - expected)[[0, *range(m, len(means))]])))
-    lost = float(np.sum(share * np.abs(values) * (moved.rounding + 10.0 * LEFT)))
-    own = 2.0 * EPS * (np.abs(weight) + np.pi * m * abs(shift)) + _mean_error(p)
+    lost = float(np.sum(size * found.rounding))
+    own = 2.0 * EPS * (np.abs(weight) + np.pi * m * abs(shift)) + d.mean_error
     error = SAFETY * defect + lost + own * np.abs(means[: m + 1])
-    data = float(np.sum(share * np.abs(values) * moved.data))
-    relative = float(np.max(error)) / float(np.max(np.abs(values)))
+    data = float(np.sum(size * found.data))
+    relative = float(np.max(error)) / float(np.max(np.abs(sampled)))
     with np.errstate(over="ignore", under="ignore", invalid="ignore"):
         back = np.exp(-weight)
         return _Circle(means[: m + 1] * back, error * back, data * back, relative)
 
 
-def _combined(p: Pencil, circles: list[_Circle]) -> tuple[Float, Float, Float]:
+def _combined(d: Determinant, circles: list[_Circle]) -> tuple[Float, Float, Float]:
     """Each coefficient by the circle that knows it best, lowest power first."""
     every = np.nan_to_num([circle.errors for circle in circles], nan=np.inf)
-    best = np.argmin(every, axis=0), np.arange(p.order + 1)
+    best = np.argmin(every, axis=0), np.arange(d.order + 1)
     c, errors, data = (
         np.array([getattr(circle, name) for circle in circles])[best]
         for name in ("c", "errors", "data")
     )
-    c[[0, -1]], errors[[0, -1]] = [(-1.0) ** p.order, 1.0], [_mean_error(p), 0.0]
+    c[[0, -1]], errors[[0, -1]] = [(-1.0) ** d.order, 1.0], [d.mean_error, 0.0]
     return c, errors, data
 
 
-def _better(p: Pencil, circles: list[_Circle]) -> float | None:
+def _better(d: Determinant, circles: list[_Circle]) -> float | None:
     """The circle that would add most to what is known, as ln s/2 pi; None if it is not much."""
-    c, errors, _ = _combined(p, circles)
-    k = np.arange(p.order + 1)
+    c, errors, _ = _combined(d, circles)
+    k = np.arange(d.order + 1)
     with np.errstate(divide="ignore"):
         size, known = np.log(np.maximum(np.abs(c), errors)), np.log(errors)
     level = np.log(min(circle.relative for circle in circles))
     best, most = None, np.log(GAIN)
     for _, _, log_s in newton_polygon(size, np.abs(c) > 2.0 * errors):
         reached = level + np.max(size + log_s * k) - log_s * k
-        gain = float(np.max((known - reached)[1 : p.order], initial=-np.inf))
+        gain = float(np.max((known - reached)[1 : d.order], initial=-np.inf))
         if gain > most:
             best, most = log_s / (2.0 * np.pi), gain
     return best

@@ -34,7 +34,7 @@ class Motion:
     rounding : (s,) ndarray
         By rounding, the division by M included.
     data : (s,) ndarray
-        By the errors that the data came with.
+        By the errors that the data came with. Both are empty if not asked for.
     """
 
     slope: Complex
@@ -42,10 +42,10 @@ class Motion:
     data: Float
 
 
-def motion(p: Pencil, t: Tail, f: Folded) -> Motion:
-    """Go through the inverse from the middle outwards."""
+def motion(p: Pencil, t: Tail, f: Folded, *, bounds: bool = True) -> Motion:
+    """Go through the inverse from the middle outwards; `bounds` asks for more than the slope."""
     s, ways, K = len(f.middle), f.ways, len(f.S)
-    sums = _Sums(ways, weighed=any(map(bool, (*p.rounded, *p.given))))
+    sums = _Sums(ways, bounds)
     S, coupling = (np.concatenate([x, ways.turned(x)]) for x in (f.middle, f.middle_coupling))
     G = np.linalg.inv(S)
     # the middle is met on both ways
@@ -66,6 +66,8 @@ def motion(p: Pencil, t: Tail, f: Folded) -> Motion:
     slope = sums.slope + p.Omega * _trace(G - inverse, t.matrix_slope(end, p.degree))
     slope = slope + _series_slope(p, t, end)
     slope = slope[:s] + slope[s:].conj() + _own_slope(p, ways, K)
+    if not bounds:
+        return Motion(slope, np.empty(0), np.empty(0))
     square = sums.square[:s] + sums.square[s:] + np.sum(f.logs**2, axis=1)
     nu = ways.nu[:s]
     return Motion(
@@ -79,10 +81,11 @@ def motion(p: Pencil, t: Tail, f: Folded) -> Motion:
 class _Sums:
     """What the blocks of the inverse add up to, both ways side by side."""
 
-    def __init__(self, ways: Rows, weighed: bool) -> None:
+    def __init__(self, ways: Rows, bounds: bool) -> None:
         p, count = ways.p, len(ways.nu)
         b = p.reach * p.n
-        self.ways = ways
+        weighed = bounds and any(map(bool, (*p.rounded, *p.given)))
+        self.ways, self.bounds = ways, bounds
         self.slope = np.zeros(count, complex)
         self.square = np.zeros(count)
         self.weights = np.zeros((3, p.degree, count, b, b), complex) if weighed else None
@@ -91,7 +94,8 @@ class _Sums:
         """The block of the inverse against the block `off` of T with columns in group k."""
         ways = self.ways
         self.slope += share * _trace(G, ways.slope(off, k))
-        self._own(np.abs(G), ways.size(off, k), share)
+        if self.bounds:
+            self._own(np.abs(G), ways.size(off, k), share)
         if self.weights is not None:
             z = np.repeat(ways.z(k), ways.p.n, axis=1)[:, :, None]
             for d in range(ways.p.degree):
@@ -101,8 +105,9 @@ class _Sums:
         self, k: int, S: Complex, inverse: Complex, G: Complex, taken: Complex, share: float = 1.0
     ) -> None:
         """Rounding of S_k's own determinant and inverse, and of what was taken from D_k."""
-        self._own(np.abs(inverse), np.abs(S), share)
-        self._own(np.abs(G), np.abs(taken), share)
+        if self.bounds:
+            self._own(np.abs(inverse), np.abs(S), share)
+            self._own(np.abs(G), np.abs(taken), share)
 
     def _own(self, G: Float, size: Float, share: float) -> None:
         rows = np.einsum("scr,src->sr", G, size)

@@ -93,8 +93,8 @@ def stacked(terms: tuple[Terms, ...], reach: int, n: int) -> Any:
     return whole.reshape(3, len(terms), reach * n, reach * n)
 
 
-def pencil(equation: PeriodicEquation) -> Pencil:
-    """T of an equation."""
+def pencil(equation: PeriodicEquation, ulps: float = 0.0) -> Pencil:
+    """T of an equation, whose pulsating coefficients were rounded by so many ulps already."""
     shift = 1 - int(np.frexp(equation.Omega)[1])
     if equation.A is not None:
         M, coefficients = np.eye(equation.A.n), [(-1.0, equation.A)]
@@ -104,7 +104,7 @@ def pencil(equation: PeriodicEquation) -> Pencil:
         coefficients = [(1.0, K), (1.0, C)]  # type: ignore[list-item]
     n, powers = len(M), range(len(coefficients), 0, -1)
     found = [
-        _terms(M, matrix, sign, power * shift)
+        _terms(M, matrix, sign, power * shift, ulps)
         for power, (sign, matrix) in zip(powers, coefficients, strict=True)
     ]
     spread = np.abs(np.linalg.inv(M)) @ np.ones((n, n))
@@ -130,13 +130,14 @@ def pencil(equation: PeriodicEquation) -> Pencil:
     )
 
 
-def _terms(M: Float, matrix: Fourier, sign: float, shift: int) -> tuple[Terms, Terms]:
+def _terms(M: Float, matrix: Fourier, sign: float, shift: int, ulps: float) -> tuple[Terms, Terms]:
     """X_p and the errors of its elements, in scaled time."""
 
-    def over(x: Float) -> tuple[Float, Float]:
-        return divided(M, np.ldexp(sign * x, shift))
+    def over(x: Float, ulps: float = ulps) -> tuple[Float, Float]:
+        quotient, error = divided(M, np.ldexp(sign * x, shift))
+        return quotient, error + EPS * ulps * np.abs(quotient)
 
-    mean, error = over(matrix.mean)
+    mean, error = over(matrix.mean, 0.0)
     terms, errors = {0: mean.astype(complex)}, {0: error}
     zero = np.zeros_like(mean)
     for p in matrix.harmonics:

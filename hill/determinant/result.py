@@ -1,14 +1,17 @@
 """What the determinant says of an equation."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
 
 from hill.arrays import EPS, Complex, Float
-from hill.determinant.general_polynomial import polynomial
+from hill.determinant.general_polynomial import Polynomial, polynomial
+from hill.determinant.general_values import Determinant, determinant
+from hill.determinant.in_z import by_discs
+from hill.determinant.roots import WELL_KNOWN, discs, improved, larger_of_pair, monic_in_y
 from hill.equation import HillEquation
-from hill.multipliers import multipliers
+from hill.multipliers import Multipliers, in_discs, multipliers
 from hill.periodic import PeriodicEquation
 from hill.stability import Verdict, stability_of
 
@@ -86,11 +89,14 @@ def of_z(
     data_error: float,
     M: tuple[int, ...],
     form: Form,
+    d: Determinant | None = None,
 ) -> Characteristic:
-    """From P(z)."""
+    """From P(z); and, with the determinant, from what it says at the roots."""
     s = stability_of(polynomial, error, equation.Omega, equation.damping)
-    root = np.sqrt(s.z - 1.0) * np.sqrt(s.z + 1.0)
-    outer = np.where(np.abs(s.z + root) >= np.abs(s.z - root), s.z + root, s.z - root)
+    if d is not None:
+        with np.errstate(all="ignore"):
+            s = by_discs(d, s, equation.Omega, equation.damping)
+    outer = larger_of_pair(s.z)
     growth = np.log(outer) / equation.period
     # on the circle, and pairs stay together
     growth = np.where((s.z.imag == 0.0) & (np.abs(s.z) <= 1.0), 1j * growth.imag, growth)
@@ -117,13 +123,15 @@ def of_z(
     )
 
 
-def of_multipliers(equation: PeriodicEquation) -> Characteristic:
+def of_multipliers(equation: HillEquation | PeriodicEquation) -> Characteristic:
     """From the polynomial of the multipliers."""
     # what overflows is refused, by what comes out
     with np.errstate(over="ignore", invalid="ignore"):
-        found = polynomial(equation)
-    c, errors, data = found.unscaled()
-    m = multipliers(found.coefficients, found.errors, equation.period, found.log_scale)
+        d = determinant(equation)
+        found = polynomial(d)
+        c, errors, data = found.unscaled()
+        m = multipliers(found.coefficients, found.errors, equation.period, found.log_scale)
+        m = _by_discs(d, found, m, equation.period)
     return Characteristic(
         polynomial=c,
         errors=errors,
@@ -138,6 +146,25 @@ def of_multipliers(equation: PeriodicEquation) -> Characteristic:
         M=found.M,
         form="converged",
     )
+
+
+def _by_discs(d: Determinant, p: Polynomial, m: Multipliers, period: float) -> Multipliers:
+    """What the determinant says at the roots themselves, where that is better known."""
+    evaluate = monic_in_y(d)
+    for improve in (False, True):
+        if m.T_error * period < WELL_KNOWN:
+            break
+        with np.errstate(divide="ignore"):
+            y = np.exp(m.exponents * period - p.log_scale)
+        if np.any(y == 0.0):
+            break
+        found = discs(evaluate, improved(evaluate, y) if improve else y)
+        other = in_discs(found.centre, found.radius, period, p.log_scale, p.errors[-1])
+        verdict = m.verdict if other.verdict == "undecided" else other.verdict
+        if other.T_error < m.T_error:
+            m = other
+        m = replace(m, verdict=verdict)
+    return m
 
 
 def _of_arccosh(z: Complex, radius: Float) -> Float:
