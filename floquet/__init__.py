@@ -1,5 +1,6 @@
 """The witness: a periodic system in the time domain, its monodromy matrix, what follows from it."""
 
+from floquet.general.of_time import EstimatedMonodromy
 from floquet.period import monodromy
 from floquet.result import Monodromy
 from floquet.sensitivity.equation import Derivatives, Sensitivities, sensitivities
@@ -8,6 +9,7 @@ from floquet.sensitivity.system import BeamSensitivities, beam_sensitivities
 __all__ = [
     "BeamSensitivities",
     "Derivatives",
+    "EstimatedMonodromy",
     "Monodromy",
     "Sensitivities",
     "beam_sensitivities",

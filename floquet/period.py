@@ -11,7 +11,9 @@ Neither holds for a general equation, nor for a damping matrix: `floquet.general
 period is integrated too where the solution grows so much that U cannot be inverted well.
 """
 
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from typing import Any, overload
 
 import numpy as np
 
@@ -20,6 +22,7 @@ from floquet.arrays import Complex, Float
 from floquet.data_errors import data_share, subtraction_error
 from floquet.eigenvalues import Discs, discs_from_matrix, discs_from_polynomial, sorted_eigenvalues
 from floquet.general.mode_bounds import discs_one_by_one
+from floquet.general.of_time import EstimatedMonodromy, monodromy_of_time
 from floquet.general.period import general_monodromy
 from floquet.growth import growth_from_z, logarithm_error
 from floquet.integrate.methods import METHODS, Method
@@ -46,30 +49,66 @@ MAX_TERM_GROWTH = 100.0
 MAX_DECAY_EXPONENT = 700.0
 
 
-def monodromy(equation: HillEquation | PeriodicEquation, *, method: str = "taylor") -> Monodromy:
+@overload
+def monodromy(
+    equation: HillEquation | PeriodicEquation, *, method: str = "taylor"
+) -> Monodromy: ...
+
+
+@overload
+def monodromy(
+    equation: Callable[[Any], Any], *, period: float, breaks: Iterable[float] = ()
+) -> EstimatedMonodromy: ...
+
+
+def monodromy(
+    equation: Any,
+    *,
+    method: str = "taylor",
+    period: float | None = None,
+    breaks: Iterable[float] = (),
+) -> Monodromy | EstimatedMonodromy:
     """Integrate a periodic equation over one period.
 
     Every result is checked by a second integration, of the damped equation as it stands, over the
-    whole period, with other steps; `error` comes from their difference.
+    whole period, with other steps; `error` comes from their difference. Of any A(t) two methods'
+    difference is an *estimate* of the error and no more.
 
     Parameters
     ----------
-    equation : HillEquation or PeriodicEquation
-        The matrix Hill equation (6.1.1), of which `eta` may be a matrix, or a general one.
+    equation : HillEquation, PeriodicEquation, or callable or casadi.Function
+        The matrix Hill equation (6.1.1), of which `eta` may be a matrix; a general one; or A of
+        x' = A(t) x, from the time, a CasADi symbol, to an (m, m) expression.
     method : {"taylor", "cvodes"}, optional
         A Taylor step of order 24 folded over the period, or SUNDIALS' Adams method.
+    period : float, optional
+        Of A(t), which needs one.
+    breaks : iterable of float, optional
+        Times within the period at which A(t) or a derivative of it jumps.
 
     Returns
     -------
     Monodromy
+        Of A(t) an `EstimatedMonodromy`, whose verdict is always "undecided".
 
     Raises
     ------
     ValueError
-        `method` unfound.
+        `method` unfound; an A(t) that has another period, is not smooth between the breaks, no
+        (m, m) matrix or not finite; a period beside an equation, or none for A(t).
     OverflowError
         The growth or the decay over one period exceeds what a float can hold.
     """
+    if not isinstance(equation, HillEquation | PeriodicEquation):
+        if period is None:
+            raise ValueError("period: has no value; A(t) needs one")
+        return monodromy_of_time(equation, period, breaks)
+    if period is not None or tuple(breaks):
+        raise ValueError("period, breaks: an equation has its own; leave them out")
+    return _of_equation(equation, method)
+
+
+def _of_equation(equation: HillEquation | PeriodicEquation, method: str) -> Monodromy:
     if method not in METHODS:
         raise ValueError(f"method = {method!r}: must be one of {', '.join(METHODS)}")
     how = METHODS[method]
