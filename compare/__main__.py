@@ -11,7 +11,15 @@ from contextlib import suppress
 from importlib import import_module
 from typing import Any
 
-COMMANDS: tuple[str, ...] = ("system", "chart", "sensitivity", "listing", "figures", "claims")
+COMMANDS: tuple[str, ...] = (
+    "system",
+    "vehicle",
+    "chart",
+    "sensitivity",
+    "listing",
+    "figures",
+    "claims",
+)
 """Subcommands, each a module of `compare.commands` with SUMMARY, EPILOG, configure and run."""
 
 INTERRUPTED, ENDED, READER_GONE = 130, 143, 141

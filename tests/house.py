@@ -99,6 +99,8 @@ ANSWERS = {
     "hill.oscillations.pair.pair",
     "hill.oscillations.steady.Steady",
     "hill.oscillations.steady.steady",
+    "hill.vehicle.inertia.RigidBody",
+    "hill.vehicle.inertia.rigid_body",
     "hill.stability.Stabilities",
     "hill.stability.Stability",
     "hill.stability.Verdict",

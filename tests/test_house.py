@@ -162,7 +162,12 @@ def may_print(name: str) -> bool:
     return (
         name in ("compare/__main__.py", "compare/report/recover.py")
         or name.startswith(
-            ("compare/verification_text", "compare/crosscheck_text", "compare/commands/")
+            (
+                "compare/verification_text",
+                "compare/crosscheck_text",
+                "compare/vehicle/write",
+                "compare/commands/",
+            )
         )
         or name.endswith("_page.py")
     )

@@ -11,6 +11,9 @@ from hill.errors import Singular
 from hill.oscillations.coupling import Coupled, Guess
 from hill.oscillations.steady import Steady
 
+# Growth, over the exponent, of an oscillation that steady thrust alone makes unstable.
+GROWS = 1e-9
+
 # Forcing frequencies at which the pulsating matrices are made for a first guess.
 SAMPLES = 24
 
@@ -36,8 +39,8 @@ def candidates(
 ) -> list[Candidate]:
     """Every resonance of the orders up to one, between two Omega, the most dangerous first.
 
-    Those that nothing couples are left out. The guesses take the pulsating matrices at the nearest
-    of a few Omega.
+    Those that nothing couples are left out, and those of oscillations that grow by themselves. The
+    guesses take the pulsating matrices at the nearest of a few Omega.
 
     Parameters
     ----------
@@ -55,7 +58,9 @@ def candidates(
         for order in range(1, orders + 1):
             resonance = replace(first, order=order)
             Omega = resonance.Omega(alone.frequencies + 0j)
-            if low <= Omega <= high and Omega > 0.0:
+            exponents = [alone.exponents[alone.oscillations[k]] for k in (first.i, first.j)]
+            grows = any(x.real > GROWS * abs(x) for x in exponents)
+            if low <= Omega <= high and Omega > 0.0 and not grows:
                 found.append((Omega, resonance))
     coupled = _coupled(near.equation, alone, np.array([Omega for Omega, _ in found]))
     guessed = [

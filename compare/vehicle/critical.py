@@ -55,7 +55,7 @@ def critical_gamma(near: Callable[[float], Near], band: Band, gamma: float) -> f
             return float(following ** (1.0 / power))
         before_u, before = u, value
         u = following
-        value = near(float(u ** (1.0 / power))).band().excess
+        value = near(float(u ** (1.0 / power))).most()
     return float(u ** (1.0 / power))
 
 

@@ -41,6 +41,9 @@ UNDAMPED = 1e-10
 # An edge that is corrected by more, over half the window, is solved for without polynomials.
 MAX_CORRECTION = 0.02
 
+# Share of Omega to which an edge is solved for without them.
+SOLVED = 1e-10
+
 # Half a window where nothing grows, and where averaging sees no coupling at all.
 LEAST = 1e-4
 
@@ -128,10 +131,8 @@ class Near:
         Refused
             It lies within another instability, or too many harmonics take part.
         """
-        window = self._window(guess or self.guess())
-        fits = _Fits.of(window, [self.at(x) for x in window.nodes])
-        peak = fits.peak()
-        own = self.at(peak)
+        fits, peak = self._top(guess or self.guess())
+        own, window = self.at(peak), fits.window
         over = excess(own, peak)
         edges, error = None, 0.0
         if over > 0.0:
@@ -140,6 +141,23 @@ class Near:
             )
             edges, error = (low, high), max(off, other)
         return Band(self.resonance, peak, own.T, 2.0 * own.error, edges, error, over)
+
+    def most(self) -> float:
+        """The band's excess, without its edges.
+
+        Raises
+        ------
+        Refused
+            As `band`.
+        """
+        _, peak = self._top(self.guess())
+        return excess(self.at(peak), peak)
+
+    def _top(self, guess: Guess) -> tuple["_Fits", float]:
+        """Polynomials across the band, and where they grow fastest."""
+        window = self._window(guess)
+        fits = _Fits.of(window, [self.at(x) for x in window.nodes])
+        return fits, fits.peak()
 
     def _window(self, guess: Guess) -> "_Window":
         """About the middle of the band, as wide as it."""
@@ -164,23 +182,26 @@ class Near:
 
     def _edge(self, fits: "_Fits", peak: float, end: float) -> tuple[float, float]:
         """Where growth ends between its peak and the window's end, and how far that may be off."""
-        while fits.excess(end) > 0.0 and excess(self.at(end), end) > 0.0:
-            end = max(end + (end - peak), 0.1 * peak)
-        if fits.excess(end) > 0.0:  # the polynomials are not good enough
-            return self._solved(peak, end), 1e-9 * peak
+        # a band that is hardly open may be closed for the polynomials, or beyond their window
+        if fits.excess(peak) <= 0.0 or fits.excess(end) > 0.0:
+            return self._solved(peak, end), SOLVED * peak
         half = fits.window.half
         first = float(brentq(fits.excess, peak, end, xtol=1e-14 * peak))
         step = 1e-3 * half
         slope = (fits.excess(first + step) - fits.excess(first - step)) / (2.0 * step)
         correction = -excess(self.at(first), first) / slope if slope else np.inf
         if abs(correction) > MAX_CORRECTION * half:
-            return self._solved(peak, end), 1e-9 * peak
+            return self._solved(peak, end), SOLVED * peak
         # another would be smaller by about the same factor
         return first + correction, abs(correction) * MAX_CORRECTION + 1e-12 * peak
 
     def _solved(self, peak: float, end: float) -> float:
         """The same without polynomials."""
-        return float(brentq(lambda x: excess(self.at(x), x), peak, end, rtol=1e-10))
+        for _ in range(MAX_MOVES):
+            if excess(self.at(end), end) < 0.0:
+                return float(brentq(lambda x: excess(self.at(x), x), peak, end, rtol=0.1 * SOLVED))
+            end = max(end + (end - peak), LEAST * peak)
+        raise Refused(f"{self.resonance.name}: has no edge beside Omega = {peak:g}")
 
 
 def excess(pair: Pair, Omega: float) -> float:

@@ -1,0 +1,117 @@
+"""``verify vehicle``: what the thrust's pulsation does to one's own vehicle."""
+
+import argparse
+import io
+import math
+import sys
+from pathlib import Path
+
+from rich.console import Console
+
+from compare import system_file
+from compare.commands.asked import settings
+from compare.commands.terminal import stages, terminal
+from compare.output import check_writable, write_whole
+from compare.vehicle.study import CLOSELY, WITNESSED, study
+from compare.vehicle.write import as_json, markdown, text
+from hill import Vehicle, checks
+
+SUMMARY = "what pulsating thrust does to a vehicle of one's own, in hertz and seconds"
+EPILOG = """\
+examples:
+  verify vehicle mine.toml
+  verify vehicle mine.toml --range 2 40 --set gamma=0.2
+  verify vehicle mine.toml --format json
+
+The first line says whether the vehicle is safe at the file's operating pulsation (forcing.Omega, in
+radians per unit of time), the second what the nearest danger is. Bands, growth and critical
+pulsation ratios come from Hill's matrix on the vehicle's exact modes; the column "both" has the
+verdict of the time domain on finite elements of the vehicle, where it agrees with them.
+
+exit status: 0 the routes agree; 1 they do not; 2 wrong usage or input."""
+
+FORMATS = ("text", "json", "md")
+
+
+def configure(p: argparse.ArgumentParser) -> None:
+    """Options of the command."""
+    p.add_argument("file", type=Path, metavar="FILE.toml", help='a file of kind = "vehicle"')
+    p.add_argument(
+        "--set", action="append", default=[], metavar="NAME=VALUE", help="a number; repeatable"
+    )
+    p.add_argument(
+        "--range",
+        nargs=2,
+        type=float,
+        metavar=("LOW", "HIGH"),
+        help="cycles per unit of time (Hz) between which resonances are looked for",
+    )
+    p.add_argument(
+        "--order", type=int, default=2, metavar="K", help="of resonances, up to K (default 2)"
+    )
+    p.add_argument(
+        "--closely",
+        type=int,
+        default=CLOSELY,
+        metavar="N",
+        help=f"resonances that are solved for, the most dangerous (default {CLOSELY})",
+    )
+    p.add_argument(
+        "--both",
+        type=int,
+        default=WITNESSED,
+        metavar="N",
+        help=f"and those of them that the time domain is asked about (default {WITNESSED})",
+    )
+    p.add_argument(
+        "--format", choices=FORMATS, help="text, or what the output's suffix says (.json, .md)"
+    )
+    p.add_argument(
+        "--output", type=Path, metavar="FILE", help="write there instead of the terminal"
+    )
+
+
+def run(options: argparse.Namespace) -> int:
+    """Run it; return the exit status."""
+    found = system_file.with_settings(system_file.read(options.file), settings(options.set))
+    vehicle = found.system
+    if not isinstance(vehicle, Vehicle):
+        raise ValueError(f"{options.file}: kind = {found.kind!r}: must be 'vehicle'")
+    if "gamma" not in found.forcing:
+        raise ValueError("gamma: has no value; give it in [forcing] or as --set gamma=")
+    span = None
+    if options.range:
+        low, high = (checks.number("--range", x) for x in options.range)
+        if not 0.0 <= low < high:
+            raise ValueError(f"--range {low:g} {high:g}: must ascend, from 0 on")
+        span = (2.0 * math.pi * low, 2.0 * math.pi * high)
+    if options.output is not None:
+        check_writable(options.output)
+    with stages() as stage:
+        result = study(
+            vehicle,
+            gamma=found.forcing["gamma"],
+            eta=found.forcing.get("eta", 0.0),
+            Omega=found.forcing.get("Omega"),
+            span=span,
+            orders=checks.count("--order", options.order, least=1, most=10),
+            closely=checks.count("--closely", options.closely, least=1),
+            witness=checks.count("--both", options.both, least=0),
+            stage=stage,
+        )
+    kind = options.format or (options.output.suffix[1:] if options.output else "text")
+    if kind in ("json", "md"):
+        content = (as_json if kind == "json" else markdown)(found.title, result)
+    elif options.output is None:
+        text(found.title, result, terminal())
+        return int(not result.routes_agree)
+    else:
+        buffer = io.StringIO()
+        text(found.title, result, Console(file=buffer, width=120))
+        content = buffer.getvalue()
+    if options.output is None:
+        sys.stdout.write(content)
+        sys.stdout.flush()
+    else:
+        write_whole(options.output, content)
+    return int(not result.routes_agree)

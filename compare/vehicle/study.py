@@ -1,0 +1,244 @@
+"""What the thrust's pulsation does to a vehicle: everything that `verify vehicle` tells."""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any
+
+from compare.both_routes import CrossCheck, crosscheck
+from compare.vehicle.candidates import Candidate, candidates
+from compare.vehicle.critical import Loss, critical_gamma, steady_loss
+from compare.vehicle.near import Band, Near
+from compare.vehicle.sensitivity import Effect, effects
+from compare.vehicle.witnessed import Witnessed, witnessed
+from hill import Vehicle
+from hill.averaging import Resonance, first_order
+from hill.errors import Refused
+from hill.oscillations.steady import Steady, steady
+from hill.vehicle.inertia import RigidBody, rigid_body
+
+Stage = Callable[[str, int, int], None]
+
+# Resonances that are looked at closely, of those that averaging finds the most dangerous.
+CLOSELY = 20
+
+# And of these, by the witness too, and for what helps.
+WITNESSED = 6
+
+
+@dataclass(frozen=True, eq=False)
+class Row:
+    """One resonance.
+
+    Attributes
+    ----------
+    band : Band
+    critical : float or None
+        The pulsation at which it opens; None where it does not.
+    witnessed : Witnessed or None
+        The time domain's word at the band's worst Omega; None where it was not asked.
+    effects : tuple of Effect
+        What moves T there the most.
+    """
+
+    band: Band
+    critical: float | None
+    witnessed: Witnessed | None = None
+    effects: tuple[Effect, ...] = ()
+
+    @property
+    def resonance(self) -> Resonance:
+        """Which."""
+        return self.band.resonance
+
+    @property
+    def opens(self) -> bool:
+        """Whether it is unstable at the asked pulsation."""
+        return self.band.edges is not None
+
+
+@dataclass(frozen=True, eq=False)
+class Study:
+    """Attributes are in the vehicle's units; frequencies in radians per unit of time.
+
+    Attributes
+    ----------
+    vehicle : Vehicle
+    gamma, eta : float
+    Omega : float or None
+        The operating pulsation.
+    low, high : float
+        The range of Omega that was looked at.
+    orders : int
+    body : RigidBody
+    free : tuple of float
+        Frequencies without thrust, of the elastic modes.
+    alone : Steady
+        Under the mean thrust.
+    loss : Loss or None
+        Where steady thrust is too much; None where it is nowhere up to 50 times the vehicle's.
+    operating : CrossCheck or None
+        Both routes at the operating pulsation.
+    rows : tuple of Row
+        The resonances looked at closely, the most dangerous first.
+    others : tuple of Candidate
+        The rest of the range, by averaging only.
+    refused : tuple of str
+        Resonances within others' bands, and why they have none of their own.
+    """
+
+    vehicle: Vehicle
+    gamma: float
+    eta: float
+    Omega: float | None
+    low: float
+    high: float
+    orders: int
+    body: RigidBody
+    free: tuple[float, ...]
+    alone: Steady
+    loss: Loss | None
+    operating: CrossCheck | None
+    rows: tuple[Row, ...]
+    others: tuple[Candidate, ...]
+    refused: tuple[str, ...]
+
+    @property
+    def open_rows(self) -> tuple[Row, ...]:
+        """The bands there are at this pulsation, the nearest to the operating one first."""
+        found = [row for row in self.rows if row.opens]
+        if self.Omega is None:
+            return tuple(sorted(found, key=lambda row: -row.band.T))
+        return tuple(sorted(found, key=lambda row: distance(row.band, self.Omega or 0.0)))
+
+    @property
+    def steadily_lost(self) -> bool:
+        """Whether the vehicle is unstable without pulsation."""
+        return self.loss is not None and self.loss.thrust / self.vehicle.thrust.mean <= 1.0
+
+    @property
+    def routes_agree(self) -> bool:
+        """Wherever both were asked."""
+        asked = [row.witnessed.agrees for row in self.rows if row.witnessed]
+        return all(asked) and (self.operating is None or self.operating.routes_agree)
+
+
+def distance(band: Band, Omega: float) -> float:
+    """From Omega to a band; 0 within it."""
+    assert band.edges is not None
+    low, high = band.edges
+    return max(low - Omega, Omega - high, 0.0)
+
+
+def study(
+    vehicle: Vehicle,
+    *,
+    gamma: float,
+    eta: float = 0.0,
+    Omega: float | None = None,
+    span: tuple[float, float] | None = None,
+    orders: int = 2,
+    closely: int = CLOSELY,
+    witness: int = WITNESSED,
+    stage: Stage = lambda *_: None,
+) -> Study:
+    """Study a vehicle.
+
+    Parameters
+    ----------
+    vehicle : Vehicle
+    gamma : float
+        Pulsation ratio, not 0.
+    eta : float, optional
+        Damping beside the vehicle's own.
+    Omega : float, optional
+        The operating pulsation, radians per unit of time.
+    span : (float, float), optional
+        Omega between which resonances are looked for; up to twice the fourth elastic frequency by
+        default.
+    orders : int, optional
+    closely, witness : int, optional
+        How many resonances are solved for, and how many of these by the time domain too.
+    stage : callable, optional
+        Called with what is done, how much of it, and how much there is of it.
+
+    Raises
+    ------
+    ValueError
+        `gamma` is 0; whatever is out of range.
+    """
+    if gamma == 0.0:
+        raise ValueError("gamma = 0: must not be 0, there is no parametric resonance without it")
+    scale = Omega or 1.0
+    alone = steady(vehicle.equation(scale, 0.0, eta))
+    frequencies = alone.frequencies
+    low, high = span or (0.0, 2.0 * float(frequencies[min(4, len(frequencies) - 1)]))
+
+    def near(resonance: Resonance, at: float) -> Near:
+        return Near(lambda x: vehicle.equation(x, at, eta), resonance, alone)
+
+    stage("resonances guessed", 0, 0)
+    anyone = first_order(1)[0]
+    names = vehicle.frequency_names
+    listed = candidates(near(anyone, gamma), names, orders, low, high)
+    rows, refused = [], []
+    for done, candidate in enumerate(listed[:closely]):
+        stage("resonances solved", done, min(closely, len(listed)))
+        try:
+            rows.append(_row(lambda at, r=candidate.resonance: near(r, at), gamma))  # type: ignore[misc]
+        except Refused as why:
+            refused.append(str(why))
+    rows.sort(key=lambda row: (-row.opens, -row.band.T if row.opens else row.critical or math.inf))
+    operating = None
+    if Omega is not None:
+        stage("both routes at the operating pulsation", 0, 0)
+        operating = crosscheck(vehicle, Omega=Omega, gamma=gamma, eta=eta)
+    for done in range(min(witness, len(rows))):
+        stage("both routes", done, min(witness, len(rows)))
+        rows[done] = replace(
+            rows[done], witnessed=witnessed(vehicle, gamma, eta, rows[done].band, alone)
+        )
+    told = effects(
+        vehicle,
+        gamma,
+        eta,
+        [row.band for row in rows[:witness]],
+        lambda k, n: stage("effects", k, n),
+    )
+    rows = [replace(row, effects=own) for row, own in zip(rows, told, strict=False)] + rows[
+        witness:
+    ]
+    stage("steady thrust", 0, 0)
+    return Study(
+        vehicle=vehicle,
+        gamma=gamma,
+        eta=eta,
+        Omega=Omega,
+        low=low,
+        high=high,
+        orders=orders,
+        body=rigid_body(vehicle),
+        free=tuple(float(2.0 * math.pi * f) for f in vehicle.frequencies()),
+        alone=alone,
+        loss=_loss(vehicle, eta),
+        operating=operating,
+        rows=tuple(rows),
+        others=tuple(listed[closely:]),
+        refused=tuple(refused),
+    )
+
+
+def _row(near: Callable[[float], Near], gamma: float) -> Row:
+    at = near(gamma)
+    band = at.band()
+    return Row(band, critical_gamma(near, band, gamma))
+
+
+def _loss(vehicle: Vehicle, eta: float) -> Loss | None:
+    if not vehicle.thrust.mean:
+        return None
+
+    def equation(T0: float) -> Any:
+        return replace(vehicle, thrust=replace(vehicle.thrust, mean=T0)).equation(1.0, 0.0, eta)
+
+    return steady_loss(equation, vehicle.thrust.mean)

@@ -1,0 +1,175 @@
+"""A study in words and rows, whatever they are written as: in Hz and in the vehicle's own units."""
+
+import math
+from dataclasses import dataclass
+
+from compare.vehicle.study import Row, Study, distance
+
+
+@dataclass(frozen=True)
+class Names:
+    """What the vehicle's units are called, with a blank ahead; nothing where it has none."""
+
+    frequency: str
+    time: str
+    length: str
+    mass: str
+    force: str
+
+
+def names(study: Study) -> Names:
+    """Of a study's units."""
+    u = study.vehicle.units
+    return Names(*(f" {x}" if x else "" for x in (u.frequency, u.time, u.length, u.mass, u.force)))
+
+
+def cycles(Omega: float) -> float:
+    """Radians to cycles."""
+    return Omega / (2.0 * math.pi)
+
+
+def number(value: float, digits: int = 4) -> str:
+    """A few digits, none of them a minus before 0."""
+    return f"{value + 0.0:.{digits}g}"
+
+
+def summary(title: str, study: Study) -> tuple[str, str]:
+    """Two lines: safe or not where it operates, and the nearest danger."""
+    return _verdict(title, study), _danger(study)
+
+
+def _verdict(title: str, study: Study) -> str:
+    unit, x = names(study), study.operating
+    pulsation = f"a pulsation ratio of {study.gamma:g}"
+    if x is None or study.Omega is None:
+        count = len(study.open_rows)
+        found = f"{count} unstable band{'s' if count != 1 else ''}" if count else "no unstable band"
+        span = f"{number(cycles(study.low))} to {number(cycles(study.high))}{unit.frequency}"
+        return (
+            f"{title}: {found} found from {span} at {pulsation}; no operating frequency is given."
+        )
+    word = {"stable": "SAFE", "unstable": "NOT SAFE", "undecided": "UNDECIDED"}[x.verdict]
+    agree = "both routes agree" if x.routes_agree else "THE ROUTES DISAGREE"
+    grows = f", doubling every {number(2.0 * math.log(2.0) / x.T)}{unit.time}" if x.T > 0.0 else ""
+    return (
+        f"{title}: {word} at {number(cycles(study.Omega))}{unit.frequency} and {pulsation}"
+        f"{grows if x.verdict == 'unstable' else ''}; {agree}."
+    )
+
+
+def _danger(study: Study) -> str:
+    unit, loss = names(study), study.loss
+    if study.steadily_lost:
+        return "Nearest danger: steady thrust alone is too much" + (
+            f", from {number(loss.thrust)}{unit.force} on ({loss.kind})." if loss else "."
+        )
+    if study.open_rows:
+        row = study.open_rows[0]
+        low, high = row.band.edges or (0.0, 0.0)
+        away = ""
+        if study.Omega is not None:
+            off = cycles(distance(row.band, study.Omega))
+            away = f", {number(off)}{unit.frequency} away" if off else ", which it is in"
+        return (
+            f"Nearest danger: {row.resonance.name}, unstable from {number(cycles(low), 5)} to "
+            f"{number(cycles(high), 5)}{unit.frequency}{away}; it doubles every "
+            f"{number(doubling(row) or math.inf)}{unit.time}."
+        )
+    openings = [row for row in study.rows if row.critical is not None]
+    if not openings:
+        return "Nearest danger: none was found."
+    row = min(openings, key=lambda r: r.critical or 0.0)
+    return (
+        f"Nearest danger: {row.resonance.name} at {number(cycles(row.band.Omega))}"
+        f"{unit.frequency}, which opens at a pulsation ratio of {number(row.critical or 0.0)}."
+    )
+
+
+def doubling(row: Row) -> float | None:
+    """Time in which it doubles; None where it does not grow."""
+    return 2.0 * math.log(2.0) / row.band.T if row.band.T > 0.0 else None
+
+
+def facts(study: Study) -> list[str]:
+    """The vehicle, its frequencies, and what steady thrust it bears."""
+    unit, body = names(study), study.body
+    free = ", ".join(number(cycles(w), 6) for w in study.free)
+    under = ", ".join(number(cycles(w), 6) for w in study.alone.frequencies)
+    found = [
+        f"mass {number(body.mass, 6)}{unit.mass}, centre of mass {number(body.centre, 6)}"
+        f"{unit.length} from the nose, length {number(study.vehicle.length, 6)}{unit.length}",
+        f"frequencies without thrust: {free}{unit.frequency}",
+        f"frequencies under thrust: {under}{unit.frequency}",
+    ]
+    thrust, loss = study.vehicle.thrust.mean, study.loss
+    if loss is not None:
+        at = f" at {number(cycles(loss.frequency))}{unit.frequency}" if loss.frequency else ""
+        found.append(
+            f"steady thrust alone: {loss.kind}{at} from {number(loss.thrust, 6)}{unit.force}, "
+            f"{number(loss.thrust / thrust)} times the vehicle's {number(thrust, 6)}{unit.force}"
+        )
+    elif thrust:
+        found.append("steady thrust alone: stable up to 50 times the vehicle's thrust")
+    return found
+
+
+HEADS = (
+    "resonance",
+    "type",
+    "at",
+    "unstable from",
+    "to",
+    "grows in",
+    "doubles in",
+    "opens at",
+    "both",
+)
+
+
+def cells(row: Row) -> tuple[str, ...]:
+    """One resonance, as `HEADS` has it."""
+    band, grows = row.band, doubling(row)
+    low, high = band.edges or (None, None)
+    return (
+        row.resonance.name,
+        row.resonance.type,
+        number(cycles(band.Omega), 5),
+        "-" if low is None else number(cycles(low), 5),
+        "-" if high is None else number(cycles(high), 5),
+        "-" if grows is None else number(2.0 / band.T),
+        "-" if grows is None else number(grows),
+        "-" if row.critical is None else number(row.critical),
+        _both(row),
+    )
+
+
+def _both(row: Row) -> str:
+    if row.witnessed is None:
+        return "not asked"
+    if not row.witnessed.agrees:
+        return "DISAGREE"
+    return row.witnessed.verdict + ("*" if row.witnessed.another else "")
+
+
+def moved(row: Row) -> str:
+    """What moves T there, for one per cent more of each."""
+    words = [f"{e.name} {0.01 * e.relative:+.2g}" for e in row.effects]
+    return f"{row.resonance.name}: " + ", ".join(words)
+
+
+def remarks(study: Study) -> list[str]:
+    """What the table leaves out."""
+    unit = names(study)
+    found = [
+        f"frequencies in{unit.frequency or ' cycles'}, times in{unit.time or ' units of time'}"
+    ]
+    if any(row.witnessed and row.witnessed.another for row in study.rows):
+        found.append("* there another oscillation grows more than the two named")
+    if study.others:
+        found.append(
+            f"{len(study.others)} more resonances of the range, less dangerous by averaging, were "
+            "not solved for"
+        )
+    if study.refused:
+        found.append(f"{len(study.refused)} have no band of their own, beside or within others'")
+    return found

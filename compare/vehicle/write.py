@@ -1,0 +1,127 @@
+"""A study as text, JSON or Markdown."""
+
+import json
+import math
+from typing import Any
+
+from rich import box
+from rich.console import Console
+from rich.table import Table
+
+from compare.vehicle.study import Row, Study
+from compare.vehicle.words import HEADS, cells, cycles, doubling, facts, moved, remarks, summary
+
+STYLES = {"stable": "bold green", "unstable": "bold red", "undecided": "bold yellow"}
+
+
+def text(title: str, study: Study, console: Console) -> None:
+    """Print everything; on a narrow terminal without the types and the growth's time constants."""
+    first, second = summary(title, study)
+    style = STYLES[study.operating.verdict] if study.operating else "bold"
+    console.print(first, style=style, highlight=False)
+    console.print(second, highlight=False)
+    console.print()
+    for line in facts(study):
+        console.print(line, highlight=False)
+    console.print()
+    left = {"type", "grows in"} if console.width < 100 else set()
+    shown = [k for k, head in enumerate(HEADS) if head not in left]
+    table = Table(box=box.SIMPLE_HEAD, pad_edge=False, show_edge=False, padding=(0, 1, 0, 0))
+    for k in shown:
+        table.add_column(HEADS[k], justify="right" if k > 1 else "left")
+    for row in study.rows:
+        table.add_row(*(cells(row)[k] for k in shown))
+    console.print(table)
+    told = [row for row in study.rows if row.effects]
+    if told:
+        console.print()
+        console.print("What T moves by with 1% more of the numbers that matter most:")
+        for row in told:
+            console.print(moved(row), highlight=False)
+    console.print()
+    for line in remarks(study):
+        console.print(line, highlight=False)
+
+
+def markdown(title: str, study: Study) -> str:
+    """For a report."""
+    lines = [*summary(title, study), "", *(f"- {line}" for line in facts(study)), ""]
+    lines += ["| " + " | ".join(HEADS) + " |", "| --- " * len(HEADS) + "|"]
+    lines += ["| " + " | ".join(cells(row)) + " |" for row in study.rows]
+    lines += ["", *(f"- {moved(row)}" for row in study.rows if row.effects), ""]
+    return "\n".join([*lines, *(f"- {line}" for line in remarks(study))]) + "\n"
+
+
+def as_json(title: str, study: Study) -> str:
+    """Every digit; frequencies in cycles per unit of time."""
+    u, loss, x = study.vehicle.units, study.loss, study.operating
+    content: dict[str, Any] = {
+        "title": title,
+        "summary": list(summary(title, study)),
+        "units": {
+            "length": u.length,
+            "mass": u.mass,
+            "time": u.time,
+            "force": u.force,
+            "frequency": u.frequency,
+        },
+        "gamma": study.gamma,
+        "eta": study.eta,
+        "range": [cycles(study.low), cycles(study.high)],
+        "orders": study.orders,
+        "mass": study.body.mass,
+        "centre_of_mass": study.body.centre,
+        "moment_of_inertia": study.body.inertia,
+        "frequencies_without_thrust": [cycles(w) for w in study.free],
+        "frequencies_under_thrust": [cycles(float(w)) for w in study.alone.frequencies],
+        "steady_loss": loss
+        and {
+            "thrust": loss.thrust,
+            "margin": loss.thrust / study.vehicle.thrust.mean,
+            "kind": loss.kind,
+            "frequency": cycles(loss.frequency),
+        },
+        "operating": x
+        and {
+            "frequency": cycles(study.Omega or 0.0),
+            "verdict": x.verdict,
+            "T": x.T,
+            "T_error": x.T_error if math.isfinite(x.T_error) else None,
+            "routes_agree": x.routes_agree,
+            "difference": x.difference,
+            "bound": x.bound,
+            "discretisation": x.discretisation,
+        },
+        "resonances": [_row(row) for row in study.rows],
+        "not_solved_for": len(study.others),
+        "without_a_band": list(study.refused),
+        "routes_agree": study.routes_agree,
+    }
+    return json.dumps(content, indent=1, allow_nan=False) + "\n"
+
+
+def _row(row: Row) -> dict[str, Any]:
+    band, w = row.band, row.witnessed
+    return {
+        "name": row.resonance.name,
+        "type": row.resonance.type,
+        "order": row.resonance.order,
+        "frequency": cycles(band.Omega),
+        "band": [cycles(x) for x in band.edges] if band.edges else None,
+        "band_error": cycles(band.edge_error),
+        "T": band.T,
+        "T_error": band.T_error,
+        "time_constant": 2.0 / band.T if band.T > 0.0 else None,
+        "doubling_time": doubling(row),
+        "critical_gamma": row.critical,
+        "witness": w
+        and {
+            "T": w.T,
+            "T_error": w.T_error if math.isfinite(w.T_error) else None,
+            "discretisation": w.discretisation,
+            "verdict": w.verdict,
+            "agrees": w.agrees,
+            "another_grows_more": w.another,
+        },
+        "effects": [{"name": e.name, "value": e.value, "dT": e.slope} for e in row.effects],
+    }

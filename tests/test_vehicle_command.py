@@ -1,0 +1,209 @@
+"""``verify vehicle``: what it says of the examples, and that both routes say it."""
+
+import json
+from dataclasses import replace
+from math import log, pi
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from compare import crosscheck
+from compare.__main__ import main
+from compare.vehicle.sensitivity import effects
+from compare.vehicle.study import Study, study
+from compare.vehicle.words import summary
+from hill import Section, Sensor, Thrust, Vehicle
+
+pytest.importorskip("skfem")
+
+EXAMPLES = Path(__file__).parent.parent / "examples"
+UNIFORM = str(EXAMPLES / "uniform.toml")
+
+
+@pytest.fixture(scope="module")
+def pulsed() -> Study:
+    """Appendix A's first vehicle under three times its pulsation: some bands are open."""
+    return study(Vehicle.from_file(UNIFORM), gamma=0.3, Omega=2.0 * pi, span=(1.0, 40.0), orders=1)
+
+
+def answered(capsys: pytest.CaptureFixture[str], *words: str) -> tuple[int, str]:
+    status = main(["vehicle", *words])
+    return status, capsys.readouterr().out
+
+
+def test_the_bands_are_the_routes_own(pulsed: Study) -> None:
+    opened = [row for row in pulsed.rows if row.opens]
+    assert opened
+    for row in opened:
+        assert row.band.edges is not None
+        low, high = row.band.edges
+        inside = crosscheck(pulsed.vehicle, Omega=row.band.Omega, gamma=0.3)
+        assert inside.verdict == "unstable"
+        assert pytest.approx(row.band.T, abs=1e-9) == inside.T
+        off = 1e-3 * row.band.width
+        for Omega, expected in ((low + off, "unstable"), (high - off, "unstable")):
+            assert crosscheck(pulsed.vehicle, Omega=Omega, gamma=0.3).verdict == expected
+        for Omega in (low - off, high + off):
+            assert crosscheck(pulsed.vehicle, Omega=Omega, gamma=0.3).verdict == "stable"
+        assert row.critical is not None
+        assert 0.0 < row.critical < 0.3
+
+
+def test_the_time_domain_agrees_on_every_band_it_is_asked_of(pulsed: Study) -> None:
+    asked = [row.witnessed for row in pulsed.rows if row.witnessed]
+    assert asked
+    assert all(w.agrees and not w.another for w in asked)
+    assert pulsed.routes_agree
+    for row in pulsed.rows:
+        if row.witnessed:
+            assert row.witnessed.verdict == ("unstable" if row.opens else "stable")
+
+
+def test_what_closes_a_band_is_not_open(pulsed: Study) -> None:
+    closed = [row for row in pulsed.rows if not row.opens]
+    assert closed
+    assert all(row.critical is None or row.critical > 0.3 for row in closed)
+
+
+def test_effects_are_slopes_of_T(pulsed: Study) -> None:
+    """By the whole determinant, with other steps and on both sides."""
+    row = next(row for row in pulsed.rows if row.opens)
+    (found,) = effects(pulsed.vehicle, 0.3, 0.0, [row.band])
+    assert len(found) == 3
+    for effect in found:
+        h = 1e-3 * effect.value
+        sides = [
+            crosscheck(
+                pulsed.vehicle.varied(**{effect.name: effect.value + d}),
+                Omega=row.band.Omega,
+                gamma=0.3,
+            ).T
+            for d in (-h, h)
+        ]
+        assert effect.slope == pytest.approx((sides[1] - sides[0]) / (2.0 * h), rel=0.02)
+
+
+def test_the_nearest_danger_is_the_nearest(pulsed: Study) -> None:
+    _, danger = summary("it", pulsed)
+    nearest = pulsed.open_rows[0]
+    assert nearest.resonance.name in danger
+    assert f"doubles every {2.0 * log(2.0) / nearest.band.T:.4g} s" in danger
+    gaps = [abs(row.band.Omega - 2.0 * pi) for row in pulsed.rows if row.opens]
+    assert abs(nearest.band.Omega - 2.0 * pi) <= min(gaps) + nearest.band.width
+
+
+def test_appendix_A_is_safe(capsys: pytest.CaptureFixture[str]) -> None:
+    status, out = answered(capsys, UNIFORM, "--order", "1")
+    assert status == 0
+    first, second = out.splitlines()[:2]
+    assert first == (
+        "Appendix A, example 1: SAFE at 1 Hz and a pulsation ratio of 0.1; both routes agree."
+    )
+    assert second.startswith("Nearest danger: omega_(1) + omega_(B) at 1.132 Hz, which opens at")
+    assert "centre of mass 2400 in from the nose" in out
+    # 26.58 of the report's two modes over its 5.1
+    assert "buckling from 1.56953e+08 lbf, 5.213 times" in out
+
+
+def test_a_vehicle_that_its_thrust_alone_shakes_apart(capsys: pytest.CaptureFixture[str]) -> None:
+    # 26.58/5.1 of Appendix A's thrust is the limit of its beam with two modes
+    status, out = answered(
+        capsys, UNIFORM, "--set", "thrust=1.7e8", "--range", "4", "6", "--both", "0"
+    )
+    assert status == 0
+    first, second = out.splitlines()[:2]
+    assert "NOT SAFE at 1 Hz" in first
+    assert "steady thrust alone is too much, from 1.57e+08 lbf on (buckling)" in second
+
+
+def test_as_json(capsys: pytest.CaptureFixture[str]) -> None:
+    status, out = answered(
+        capsys, UNIFORM, "--set", "gamma=0.3", "--range", "1", "1.3", "--format", "json"
+    )
+    assert status == 0
+    content = json.loads(out)
+    assert content["mass"] == pytest.approx(15600.0)
+    assert content["units"]["frequency"] == "Hz"
+    assert content["frequencies_without_thrust"][0] == pytest.approx(1.0, abs=1e-5)
+    row = content["resonances"][0]
+    assert row["name"] == "omega_(1) + omega_(B)"
+    assert row["band"][0] < row["frequency"] < row["band"][1]
+    assert row["doubling_time"] == pytest.approx(log(2.0) * row["time_constant"])
+    assert row["witness"]["verdict"] == "unstable"
+    assert len(row["effects"]) == 3
+
+
+def test_as_markdown_into_a_file(tmp_path: Path) -> None:
+    path = tmp_path / "study.md"
+    assert main(["vehicle", UNIFORM, "--order", "1", "--both", "0", "--output", str(path)]) == 0
+    lines = path.read_text().splitlines()
+    assert lines[0].startswith("Appendix A, example 1: SAFE")
+    assert "| resonance | type | at |" in path.read_text()
+    assert "not asked" in path.read_text()
+
+
+def test_without_an_operating_pulsation_the_range_is_judged() -> None:
+    found = study(
+        Vehicle(
+            sections=(Section(1.0, 1.0, 1.0),),
+            thrust=Thrust(5.0),
+            sensors=(Sensor(0.5, 0.5),),
+            modes=2,
+            units="none",  # type: ignore[arg-type]
+        ),
+        gamma=0.1,
+        orders=1,
+        witness=0,
+    )
+    first, second = summary("it", found)
+    assert "unstable bands" in first
+    assert "no operating frequency is given" in first
+    assert "unstable from" in second
+    # without damping every resonance opens at once
+    assert all(row.critical == 0.0 for row in found.rows if row.opens)
+
+
+def test_routes_that_disagree_are_status_1(
+    pulsed: Study, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    wrong = [
+        replace(row, witnessed=replace(row.witnessed, agrees=False)) if row.witnessed else row
+        for row in pulsed.rows
+    ]
+    monkeypatch.setattr(
+        "compare.commands.vehicle.study", lambda *_, **__: replace(pulsed, rows=tuple(wrong))
+    )
+    status, out = answered(capsys, UNIFORM)
+    assert status == 1
+    assert "DISAGREE" in out
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        ([UNIFORM, "--set", "gamma=0"], "gamma = 0: must not be 0"),
+        ([UNIFORM, "--range", "4", "2"], "--range 4 2: must ascend"),
+        ([UNIFORM, "--range", "nan", "2"], "--range = nan: must be finite"),
+        ([UNIFORM, "--order", "0"], "--order = 0: must be at least 1"),
+        ([UNIFORM, "--both", "-1"], "--both = -1: must be at least 0"),
+        ([UNIFORM, "--closely", "0"], "--closely = 0: must be at least 1"),
+        ([UNIFORM, "--set", "trust=3"], "did you mean thrust"),
+        (["gone.toml"], "cannot be read"),
+        ([str(EXAMPLES / "three_parameters.toml")], "must be 'vehicle'"),
+        ([UNIFORM, "--output", "gone/s.md"], "cannot be written"),
+    ],
+)
+def test_bad_input_is_one_line(
+    words: list[str], message: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    status: Any = None
+    try:
+        status = main(["vehicle", *words])
+    except SystemExit as stop:
+        status = stop.code
+    caught = capsys.readouterr()
+    assert status == 2
+    assert caught.out == ""
+    assert message in caught.err
+    assert len(caught.err.strip().splitlines()) == 1
