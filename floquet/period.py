@@ -50,15 +50,15 @@ MAX_DECAY_EXPONENT = 700.0
 
 
 @overload
-def monodromy(
-    equation: HillEquation | PeriodicEquation, *, method: str = "taylor"
-) -> Monodromy: ...
+def monodromy(equation: HillEquation | PeriodicEquation, *, method: str = "taylor") -> Monodromy:  # noqa: D418
+    """Of an equation, with bounds."""
 
 
 @overload
-def monodromy(
+def monodromy(  # noqa: D418
     equation: Callable[[Any], Any], *, period: float, breaks: Iterable[float] = ()
-) -> EstimatedMonodromy: ...
+) -> EstimatedMonodromy:
+    """Of any A(t), with estimates."""
 
 
 def monodromy(
