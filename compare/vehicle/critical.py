@@ -11,10 +11,11 @@ from hill.oscillations.steady import Steady, steady
 
 # Secant steps in the power of gamma in which a band's excess is nearly linear.
 MAX_STEPS = 8
-CLOSE = 1e-8
+# Change of that power at which they stop; what is left is smaller by another such factor.
+CLOSE = 1e-5
 
-# A pulsation above it turns the thrust round many times over.
-MAX_GAMMA = 10.0
+# A thrust that pulsates by more than itself is turned round; twice that is looked at.
+MAX_GAMMA = 2.0
 
 # Growth, over a low frequency, that the rounding of two equal exponents may show.
 ROUNDING = 1e-6
@@ -40,6 +41,7 @@ def critical_gamma(near: Callable[[float], Near], band: Band, gamma: float) -> f
     """
     power = 2 * band.resonance.order
     before_u, before = 0.0, near(gamma).excess_at_rest
+    at_rest = before
     if before >= 0.0:
         return 0.0
     # the excess is nearly linear in u = gamma^(2 k)
@@ -55,7 +57,11 @@ def critical_gamma(near: Callable[[float], Near], band: Band, gamma: float) -> f
             return float(following ** (1.0 / power))
         before_u, before = u, value
         u = following
-        value = near(float(u ** (1.0 / power))).most()
+        at = near(float(u ** (1.0 / power)))
+        # the middle moves like gamma^2; the excess falls by a^2 over half the damped width
+        moved = (band.Omega - at.Omega) * (u ** (2.0 / power) / gamma**2)
+        half = max(2.0 * abs(at_rest) ** 0.5 / band.resonance.order, 1e-4 * at.Omega)
+        value = at.most(at.Omega + moved, half)
     return float(u ** (1.0 / power))
 
 

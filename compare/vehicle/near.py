@@ -142,14 +142,29 @@ class Near:
             edges, error = (low, high), max(off, other)
         return Band(self.resonance, peak, own.T, 2.0 * own.error, edges, error, over)
 
-    def most(self) -> float:
-        """The band's excess, without its edges.
+    def most(self, centre: float, half: float) -> float:
+        """The largest excess, of a band about so wide whose middle is near there.
+
+        By parabolas through three values, the second about the first one's top.
 
         Raises
         ------
         Refused
             As `band`.
         """
+        for reach in (half, 0.3 * half):
+            at = centre + reach * np.array([-1.0, 0.0, 1.0])
+            low, mid, high = (excess(self.at(float(x)), float(x)) for x in at)
+            bend = low - 2.0 * mid + high
+            if not bend < 0.0:
+                return self._most_of_window()
+            move = 0.5 * (low - high) / bend
+            if abs(move) > 3.0:
+                return self._most_of_window()
+            centre = float(at[1] + reach * move)
+        return mid - 0.125 * (high - low) ** 2 / bend
+
+    def _most_of_window(self) -> float:
         _, peak = self._top(self.guess())
         return excess(self.at(peak), peak)
 

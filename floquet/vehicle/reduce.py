@@ -98,6 +98,7 @@ def elements(vehicle: Vehicle, refinements: int, order: int) -> Elements:
     return _elements(_bare(vehicle), refinements, order)
 
 
+@lru_cache(maxsize=KEPT)
 def _bare(vehicle: Vehicle) -> Vehicle:
     """What of a vehicle the elements depend on."""
     return replace(

@@ -74,8 +74,9 @@ class Corner:
         count, n = self.high - self.low + 1, self.n
         whole = np.zeros((count, n, count, n), complex)
         for p, term in terms.items():
+            over = term if M is None else np.linalg.solve(M, term)
             for m in range(max(p, 0), min(count + p, count)):
-                whole[m, :, m - p] = term if M is None else np.linalg.solve(M, term)
+                whole[m, :, m - p] = over
         return whole.reshape(count * n, count * n)
 
     def state(self, vector: Complex, harmonic: int) -> Complex:

@@ -102,6 +102,8 @@ class Structure:
         return found[0], found[1]
 
 
+# a vehicle of 200 sections takes longer to be made anew than its matrices do
+@lru_cache(maxsize=32)
 def structure(vehicle: Vehicle) -> Structure:
     """Of a vehicle; remembered, for it does not depend on the thrust's size nor on the control."""
     return _structure(
