@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from compare import system_code
 from compare.matrix_file import matrix, periodic
 from hill import Fourier, PeriodicSystem, SteppedBeam, UniformBeam, checks
 from hill.system import FORCING, MatrixSystem, System, varied
@@ -88,7 +89,7 @@ def _whole_fields(system: Any) -> list[str]:
     if not is_dataclass(system) or isinstance(system, type):
         return []
     own = [f.name for f in fields(system) if f.init]
-    return [n for n in own if isinstance(getattr(system, n), int) and n != "kind"]
+    return [n for n in own if type(getattr(system, n)) is int]
 
 
 def _whole(name: str, value: float) -> int:
@@ -213,6 +214,7 @@ KINDS: dict[str, Callable[[dict[str, Any], Path], Any]] = {
     "stepped": _beam(SteppedBeam),
     "matrices": _matrices,
     "vehicle": vehicle_file.vehicle,
+    "python": system_code.system,
 }
 OWN_KEYS = {"vehicle": vehicle_file.KEYS}
 """Kinds whose content stands at the top of the file instead of in [system]."""

@@ -4,7 +4,12 @@ from floquet.general.of_time import EstimatedMonodromy
 from floquet.period import monodromy
 from floquet.result import Monodromy
 from floquet.sensitivity.equation import Derivatives, Sensitivities, sensitivities
-from floquet.sensitivity.system import BeamSensitivities, beam_sensitivities
+from floquet.sensitivity.system import (
+    BeamSensitivities,
+    SystemSensitivities,
+    beam_sensitivities,
+    system_sensitivities,
+)
 
 __all__ = [
     "BeamSensitivities",
@@ -12,7 +17,9 @@ __all__ = [
     "EstimatedMonodromy",
     "Monodromy",
     "Sensitivities",
+    "SystemSensitivities",
     "beam_sensitivities",
     "monodromy",
     "sensitivities",
+    "system_sensitivities",
 ]

@@ -29,6 +29,19 @@ def maker(system: Any) -> Make | None:
     return _MAKERS.get(type(system))
 
 
+def matrices_of(system: Any) -> tuple[Make, bool]:
+    """What makes the equation of a system here, and whether that is the system's own.
+
+    The one place where the witness asks a system: where it has no matrices of its own.
+    """
+    make = maker(system)
+    return (make, False) if make is not None else (_asked, True)
+
+
+def _asked(system: Any, Omega: float, gamma: float, eta: float = 0.0) -> Any:
+    return system.equation(Omega, gamma, eta)
+
+
 def rougher_maker(system: Any) -> Make | None:
     """What makes them from a coarser discretisation; None where there is nothing discretised."""
     return _ROUGHER.get(type(system))

@@ -8,7 +8,7 @@ from hill.equation import HillEquation
 from hill.errors import LongitudinalResonance, Refused, Singular
 from hill.periodic import Fourier, PeriodicEquation
 from hill.periodic_system import PeriodicSystem
-from hill.system import MatrixSystem, Parameter, System
+from hill.system import MatrixSystem, Parameter, System, parameter_values, varied
 from hill.vehicle.convergence import Convergence, with_more_modes
 from hill.vehicle.critical import CriticalThrust, critical_thrust
 from hill.vehicle.parts import Damping, PointMass, Section, Sensor, Thrust
@@ -41,6 +41,8 @@ __all__ = [
     "Vehicle",
     "characteristic",
     "critical_thrust",
+    "parameter_values",
     "root_distance",
+    "varied",
     "with_more_modes",
 ]

@@ -39,6 +39,8 @@ SHARED = {
     "UniformBeam",
     "Vehicle",
     "checks",
+    "parameter_values",
+    "varied",
 }
 
 # The modules of hill that hold data; every other one computes.
@@ -72,7 +74,9 @@ ANSWERS = {
     "floquet.result.Monodromy",
     "floquet.sensitivity.equation.Sensitivities",
     "floquet.sensitivity.system.BeamSensitivities",
+    "floquet.sensitivity.system.SystemSensitivities",
     "floquet.sensitivity.system.beam_sensitivities",
+    "floquet.sensitivity.system.system_sensitivities",
     "floquet.unchecked.unchecked_growth",
     "floquet.unchecked.unchecked_polynomials",
     "floquet.vehicle.discretise.discretised",

@@ -56,7 +56,9 @@ def test_each_floor_only_looks_down(floor: str, path: Path) -> None:
 def test_the_witness_takes_data_only(path: Path) -> None:
     assert not beyond_data(path)
     asked = {node.attr for node in ast.walk(tree(path)) if isinstance(node, ast.Attribute)}
-    assert not asked & COMPUTED
+    # a system that the witness has no matrices for is asked for its own, in one place
+    allowed = {"equation"} if name_of("floquet", path) == "floquet/witness.py" else set()
+    assert asked & COMPUTED == allowed
     called = {node.id for node in ast.walk(tree(path)) if isinstance(node, ast.Name)}
     # no way round the rule
     assert not called & {"__import__", "import_module", "getattr", "eval", "exec"}

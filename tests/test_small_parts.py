@@ -16,6 +16,7 @@ from compare.stability.indicators import edge_function
 from compare.verification import Report
 from floquet.sensitivity.derivative import NODES, _on
 from floquet.sensitivity.equation import Derivatives
+from floquet.sensitivity.numbers import Moved
 from floquet.sensitivity.system import _chain
 from hill import UniformBeam
 
@@ -104,10 +105,10 @@ def test_what_is_unsure_of_a_matrix_adds_to_the_bound() -> None:
     one, none = np.ones((1, 1)), np.zeros((1, 1))
     slope = Derivatives(0.0, 0.0, 0.0, none, none, np.zeros((0, 1, 1)))
     error = Derivatives(0.0, 0.0, 0.0, one, none, np.zeros((0, 1, 1)))
-    moved, unsure = np.zeros((2, 1, 1)), np.array([0.5, 0.0])
-    assert _chain("T0", slope, error, moved, unsure)[1] >= 0.5
+    moved = Moved({"F": none, "G": none}, {"F": 0.5, "G": 0.0})
+    assert _chain("T0", slope, error, moved)[1] >= 0.5
     # dT/dF is 1 for certain, dF off by 1/2
-    assert _chain("T0", error, slope, moved, unsure)[1] >= 0.5
+    assert _chain("T0", error, slope, moved)[1] >= 0.5
 
 
 def test_what_may_be_zero_is_printed_as_zero() -> None:

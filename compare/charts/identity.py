@@ -20,6 +20,8 @@ from typing import Any
 
 import numpy as np
 
+from floquet.witness import maker
+
 OURS = ("hill", "floquet", "compare")
 
 # Of a class's dictionary: what the interpreter puts there, which no method is changed by.
@@ -29,7 +31,8 @@ PASSED_OVER = frozenset(
         """__module__ __dict__ __weakref__ __doc__ __annotations__ __slots__ __dataclass_fields__
         __dataclass_params__ __match_args__ __replace__ __abstractmethods__ _abc_impl __parameters__
         __orig_bases__ _is_protocol __firstlineno__ __static_attributes__ __annotate_func__
-        __annotations_cache__ __protocol_attrs__ __non_callable_proto_members__""",
+        __annotations_cache__ __slotnames__ __repr__ __protocol_attrs__
+        __non_callable_proto_members__""",
     )
 )
 
@@ -56,9 +59,22 @@ def type_name(system: Any) -> str:
 def code_fingerprint(system: Any) -> str:
     """A name for the code of a system's type, the same wherever that code is."""
     digest = hashlib.sha256()
-    for part in _Walk().of_class(type(system)):
+    walk = _Walk()
+    for part in walk.of_class(type(system)):
+        digest.update(part)
+    # and of the witness's own matrices, where there are some
+    make = maker(system)
+    for part in walk.of_value(make) if make else ():
         digest.update(part)
     return digest.hexdigest()[:16]
+
+
+def own_modules(system: Any) -> tuple[str, ...]:
+    """The modules of the user's own that the code of a system's type is in, but for a script's."""
+    walk = _Walk()
+    for _ in walk.of_class(type(system)):
+        pass
+    return tuple(sorted(walk.modules - {"__main__", "__mp_main__", "builtins"}))
 
 
 def value_fingerprint(system: Any) -> str:
@@ -80,6 +96,8 @@ class _Walk:
 
     def __init__(self) -> None:
         self.seen: dict[int, Any] = {}
+        self.functions: dict[int, Any] = {}
+        self.modules: set[str] = set()
 
     def of_value(self, value: Any) -> Iterator[bytes]:
         """Of a number, an array, a container or an object, by all that it holds."""
@@ -145,6 +163,7 @@ class _Walk:
             yield f"class {base.__qualname__}\0".encode()
             if not _is_own(base.__module__, base):
                 continue
+            self.modules.add(base.__module__)
             for name, value in sorted(vars(base).items()):
                 if name not in PASSED_OVER:
                     yield f"{name}\0".encode()
@@ -163,17 +182,18 @@ class _Walk:
             if not isinstance(one, FunctionType):
                 yield from self._named(one)
             # made by @dataclass, from the fields
-            elif one.__code__.co_filename != "<string>":
+            elif "__create_fn__" not in one.__code__.co_qualname:
                 yield from self.of_function(one)
 
     def of_function(self, function: Any) -> Iterator[bytes]:
         """Of its code, its defaults, and what they name."""
-        if id(function) in self.seen:
+        if id(function) in self.functions:
             return
-        self.seen[id(function)] = function
+        self.functions[id(function)] = function
         if not _is_own(function.__module__, function):
             yield f"function {function.__module__}.{function.__qualname__}\0".encode()
             return
+        self.modules.add(function.__module__ or "__main__")
         yield from self._of_code(function.__code__)
         for value in (function.__defaults__, function.__kwdefaults__):
             yield from self.of_value(value)

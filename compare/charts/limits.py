@@ -43,13 +43,24 @@ def checked(system: Any, values: Values, fixed: Values) -> HillEquation:
     model = own_equation(there, **forcing)
     with suppress(Singular):  # the other forcing's own misfortune
         _check_promise(there, model, forcing)
-    radians = model.period * fastest_motion(model)
-    if not radians <= MAX_RADIANS:
+    if not slow_enough(model):
+        radians = model.period * fastest_motion(model)
         raise ValueError(
             f"{where}: the motion turns by {radians:.1e} radians a period, and "
             f"{MAX_RADIANS:g} at most can be charted"
         )
     return model
+
+
+def slow_enough(model: HillEquation) -> bool:
+    """Whether the motion turns by no more than `MAX_RADIANS` a period."""
+    with np.errstate(over="ignore"):
+        largest = np.max(np.abs(model.F)) + abs(model.gamma) * np.max(np.abs(model.G))
+        largest += sum(np.max(np.abs(H)) for H in model.H)
+        # no eigenvalue is larger than n times the largest element
+        if model.period * np.sqrt(model.n * largest) <= MAX_RADIANS:
+            return True
+    return model.period * fastest_motion(model) <= MAX_RADIANS
 
 
 def _check_promise(system: Any, model: HillEquation, forcing: Values) -> None:

@@ -1,6 +1,6 @@
 """Evaluations of P for a chart: by either route or both, on several processes, kept on disk."""
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, fields, is_dataclass
 from pathlib import Path
 from typing import Any
@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from compare.charts.axis import from_smooth
 from compare.charts.identity import (
     code_fingerprint,
+    own_modules,
     source_fingerprint,
     type_name,
     value_fingerprint,
@@ -18,7 +19,6 @@ from compare.charts.identity import (
 from compare.charts.scenario import Scenario
 from compare.charts.store import Store
 from compare.jobs.workers import MapLike, WorkersError, unordered
-from hill import Singular
 from hill.system import FORCING, varied
 
 Float = NDArray[np.floating[Any]]
@@ -35,13 +35,17 @@ chart shall be the same to the last bit on one process and on many.
 
 @dataclass(frozen=True, eq=False)
 class Job:
-    """Nodes to evaluate, the values of the axes (k, axes); which one of many; by whose code."""
+    """Nodes to evaluate, the values of the axes (k, axes); which one of many; by whose code.
+
+    `own_modules` are the user's own, whose code goes with the job to where they are not.
+    """
 
     scenario: Scenario
     points: Float
     route: str
     number: int = 0
     code: str = ""
+    own_modules: tuple[str, ...] = ()
 
 
 def code_of(scenario: Scenario) -> str:
@@ -83,31 +87,42 @@ def solved(scenario: Scenario, values: Mapping[str, Float], route: str) -> Float
     """P at some values of the varied parameters, as `evaluate`.
 
     Only what says that there is no answer is taken for one: nan where the system has no equation,
-    infinity where P is beyond a float. Anything else is told.
+    or one so near a pole that it would take for ever; infinity where P is beyond a float. Anything
+    else is told.
     """
-    count = len(next(iter(values.values())))
     asked = ("floquet", "hill") if route == "both" else (route,)
+    made = [scenario.equations(values, asked[0])]
+    if len(asked) == 2:
+        made.append(made[0] if scenario.shared_matrices else scenario.equations(values, asked[1]))
+    lines = np.full((len(made[0]), scenario.coordinates + 3), np.nan)
+    there = [k for k, pair in enumerate(zip(*made, strict=True)) if None not in pair]
+    if there:
+        own = [[equations[k] for k in there] for equations in made]
+        lines[there] = _lines(scenario, asked, own)
+    return lines
+
+
+def _lines(scenario: Scenario, routes: Sequence[str], made: Sequence[Sequence[Any]]) -> Float:
+    """P of equations that there are, as `solved`; each route has its own."""
     try:
-        own = [_coefficients_and_errors(scenario, values, one) for one in asked]
-    except (Singular, OverflowError) as reason:
-        if count > 1:
-            halves = np.array_split(np.arange(count), 2)
-            parts = ({name: x[half] for name, x in values.items()} for half in halves)
-            return np.vstack([solved(scenario, part, route) for part in parts])
-        lost = np.nan if isinstance(reason, Singular) else np.inf
-        return np.full((1, scenario.coordinates + 3), lost)
-    P, errors = own[0]
+        # growth beyond a float is said by an OverflowError
+        with np.errstate(over="ignore", invalid="ignore"):
+            own = [
+                scenario.reading.polynomials[route](equations)
+                for route, equations in zip(routes, made, strict=True)
+            ]
+    except OverflowError:
+        count = len(made[0])
+        if count == 1:
+            return np.full((1, scenario.coordinates + 3), np.inf)
+        halves = np.array_split(np.arange(count), 2)
+        parts = ([[equations[k] for k in half] for equations in made] for half in halves)
+        return np.vstack([_lines(scenario, routes, part) for part in parts])
+    P, errors = own[0].coefficients, own[0].errors
     apart = np.full(len(P), np.nan)
     if len(own) == 2:
-        apart = np.max(np.abs(P - own[1][0]), axis=1) / np.max(np.abs(P), axis=1)
+        apart = np.max(np.abs(P - own[1].coefficients), axis=1) / np.max(np.abs(P), axis=1)
     return np.column_stack([P, errors, apart])
-
-
-def _coefficients_and_errors(
-    scenario: Scenario, values: Mapping[str, Float], route: str
-) -> tuple[Float, Float]:
-    found = scenario.reading.polynomials[route](scenario.equations(values, route))
-    return found.coefficients, found.errors
 
 
 class Nodes:
@@ -228,13 +243,13 @@ class Nodes:
         names = self.scenario.names
         slower = sorted(range(len(names)), key=lambda k: _sort_rank(names[k]))
         ordered = points[np.lexsort(points.T[slower])]
-        code = code_of(self.scenario)
+        code, own = code_of(self.scenario), own_modules(self.scenario.system)
         jobs = []
         for k in range(0, len(ordered), NODES_PER_JOB):
             part = ordered[k : k + NODES_PER_JOB]
             new = [p for p in part if p.tobytes() not in self.known]
             if new:
-                jobs.append(Job(self.scenario, np.array(new), self.route, k, code))
+                jobs.append(Job(self.scenario, np.array(new), self.route, k, code, own))
         return jobs
 
     def _job_of(self, jobs: dict[int, Job], result: Any) -> tuple[Job, Float]:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from compare.charts.axis import Axis
-from compare.charts.limits import checked, own_equation
+from compare.charts.limits import checked, own_equation, slow_enough
 from compare.stability.reading import Reading, reading_of
 from floquet.witness import maker
 from hill import HillEquation, Singular, System, checks
@@ -93,8 +93,10 @@ class Scenario:
         system, forcing = self.at(values)
         return own_equation(system, **forcing)
 
-    def equations(self, points: Mapping[str, Float], route: str) -> list[HillEquation]:
+    def equations(self, points: Mapping[str, Float], route: str) -> list[HillEquation | None]:
         """The equations at many points, their matrices made once where they are the same.
+
+        None where there is no equation, or one whose motion is beyond `limits.MAX_RADIANS`.
 
         Parameters
         ----------
@@ -105,7 +107,7 @@ class Scenario:
         make = (maker(self.system) if route == "floquet" else None) or own_equation
         systems: dict[Any, Any] = {}
         made: dict[Any, HillEquation] = {}
-        found = []
+        found: list[HillEquation | None] = []
         own_names = [name for name in points if name not in FORCING]
         for line in zip(*points.values(), strict=True):
             values = dict(zip(points, map(float, line), strict=True))
@@ -117,11 +119,14 @@ class Scenario:
             moves = getattr(system, "depends_on_Omega", None)
             key = (own, forcing["Omega"] if moves or moves is None else None)
             known = made.get(key) if moves is not None else None
-            if known is None or known.H:
-                known = made[key] = make(system, **forcing)
-                found.append(known)
-            else:
-                found.append(known.forced(**forcing))
+            try:
+                if known is None or known.H:
+                    one = made[key] = make(system, **forcing)
+                else:
+                    one = known.forced(**forcing)
+                found.append(one if slow_enough(one) else None)
+            except Singular:
+                found.append(None)
         return found
 
     def frequencies(self, values: Values, Omega: float) -> Complex:

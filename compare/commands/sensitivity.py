@@ -1,4 +1,4 @@
-"""``verify sensitivity``: how T moves with every parameter of a beam."""
+"""``verify sensitivity``: how T moves with every parameter of a system."""
 
 import argparse
 import io
@@ -12,12 +12,16 @@ from rich import box
 from rich.console import Console
 from rich.table import Table
 
-from compare.charts.scenario import scenario
+from compare.charts.limits import checked
 from compare.commands import asked
 from compare.commands.terminal import terminal, working
 from compare.output import check_writable, write_whole
-from floquet import BeamSensitivities, beam_sensitivities
+from compare.provenance import provenance
+from compare.system_file import Described
+from floquet import SystemSensitivities, system_sensitivities
+from hill import System
 from hill.averaging import Resonance
+from hill.system import natural_frequencies
 
 SUMMARY = "how the characteristic argument T moves with every parameter"
 EPILOG = """\
@@ -25,11 +29,13 @@ examples:
   verify sensitivity
   verify sensitivity --beam stepped --set Omega=1.1 --set eta=0.01
   verify sensitivity --set omega_L=10 --set g=0.02 --format json
+  verify sensitivity mine.toml --set gamma=0.2
 
-The beam is the report's (Table 1, or Table 2 with --beam stepped) but for what --set changes; gamma
-is 0.1 and Omega the beam's own omega_(B) + omega_(1) where they are not set. The derivatives come
-from automatic differentiation of the integration over one period, and each has an error bound.
-JSON has those of z too.
+Without a file the system is the report's beam (Table 1, or Table 2 with --beam stepped) but for
+what --set changes; gamma is 0.1 and Omega the beam's own omega_(B) + omega_(1) where they are not
+set. A file is the one that `verify system` takes. The derivatives come from automatic
+differentiation of the integration over one period, and each has an error bound. JSON has those of z
+too.
 
 exit status: 0 done; 2 wrong usage or input, or T has no derivative there."""
 
@@ -57,27 +63,31 @@ def run(options: argparse.Namespace) -> int:
         forcing = {"gamma": GAMMA} | forcing
         if "Omega" not in forcing:
             forcing["Omega"] = _resonant(wanted.system)
-    scenario(wanted.system, (), forcing)
-    beam: Any = wanted.system
+    for name in ("Omega", "gamma"):
+        if name not in forcing:
+            raise ValueError(f"{name}: has no value; give it in [forcing] or as --set {name}=")
+    checked(wanted.system, {}, forcing)
     with working("differentiating over one period"):
-        found = beam_sensitivities(beam, **forcing)
+        found = system_sensitivities(wanted.system, **forcing)
     suffix = options.output.suffix[1:] if options.output else ""
     if (options.format or suffix) == "json":
-        _write(json.dumps(content(wanted.kind, found), indent=2) + "\n", options.output)
+        _write(json.dumps(content(wanted, found), indent=2) + "\n", options.output)
     elif options.output is None:
-        show(wanted.kind, found, terminal())
+        show(wanted.title, found, terminal())
     else:
         buffer = io.StringIO()
-        show(wanted.kind, found, Console(file=buffer, width=100))
+        show(wanted.title, found, Console(file=buffer, width=100))
         write_whole(options.output, buffer.getvalue())
     return 0
 
 
-def show(kind: str, found: BeamSensitivities, console: Console) -> None:
+def show(title: str, found: SystemSensitivities, console: Console) -> None:
     """Print where, what T is, and a line for each parameter."""
     at = ", ".join(f"{name} = {found.values[name]:.7g}" for name in ("Omega", "gamma", "eta"))
     console.print(
-        f"The {kind} beam at {at}: T = {round(found.T, 6) + 0.0:.6f}", style="bold", highlight=False
+        f"{title[:1].upper()}{title[1:]} at {at}: T = {round(found.T, 6) + 0.0:.6f}",
+        style="bold",
+        highlight=False,
     )
     console.print()
     table = Table(box=box.SIMPLE_HEAD, pad_edge=False, show_edge=False, padding=(0, 2, 0, 0))
@@ -93,12 +103,16 @@ def show(kind: str, found: BeamSensitivities, console: Console) -> None:
     if not any(slope for name, slope in found.dT.items() if name != "eta"):
         console.print()
         console.print("Stable, and not on a boundary: T = -eta, and nothing else moves it.")
+    if found.shared_matrices:
+        console.print()
+        console.print("The matrices are the system's own; the time domain has no others for it.")
 
 
-def content(kind: str, found: BeamSensitivities) -> dict[str, Any]:
+def content(wanted: Described, found: SystemSensitivities) -> dict[str, Any]:
     """What JSON holds; complex numbers are [re, im]."""
-    return {
-        "beam": kind,
+    beam = {"beam": wanted.kind} if wanted.kind in asked.BEAMS else {}
+    about = {"title": wanted.title, "kind": wanted.kind, "shared_matrices": found.shared_matrices}
+    return provenance(about | beam) | {
         "T": found.T,
         "z": _pairs(found.z),
         "parameters": [
@@ -115,8 +129,8 @@ def content(kind: str, found: BeamSensitivities) -> dict[str, Any]:
     }
 
 
-def _resonant(beam: Any) -> float:
-    Omega = RESONANCE.Omega(beam.natural_frequencies().astype(complex))
+def _resonant(beam: System) -> float:
+    Omega = RESONANCE.Omega(natural_frequencies(beam))
     if not np.isfinite(Omega) or Omega <= 0.0:
         raise ValueError("Omega: has no value; this beam has no omega_(B) + omega_(1), set Omega")
     return Omega

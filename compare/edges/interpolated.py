@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import lru_cache, partial
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -28,8 +29,8 @@ SECTIONS = 512
 TOLERANCE = 1e-11
 """Of the series beside the chart, over P's largest coefficient; the chart's own default."""
 
-NODES_BESIDE = 1200
-"""Nodes of one piece of them, at most: what a range as wide as the report's charts takes."""
+MAX_BESIDE = 5000
+"""Nodes of one of them; a chart as wide as the report's takes 1105."""
 
 MAX_ALONE = 65
 """Points of one line that are evaluated without a series: an interpolant of degree 64."""
@@ -175,23 +176,27 @@ def on_surface(chart: Chart, low: float = np.inf, high: float = 0.0) -> Interpol
 
 
 def _beside(chart: Chart, low: float, high: float) -> tuple[Piece, ...]:
-    """Series over the Omega below and above the chart's, where a line at a time would be dear."""
+    """Series over the Omega below and above the chart's, where a line at a time would be dear.
+
+    Each is as wide as the chart itself in 1/Omega, at most, and so takes no more nodes.
+    """
     axes = chart.axes
     k = chart.scenario.names.index("Omega")
     first, last = np.array([axis.span for axis in axes]).T
     found: list[Piece] = []
     for start, end in ((1.0 / high if high else np.inf, first[k]), (last[k], 1.0 / low)):
         if start < end:
-            a, b = first.copy(), last.copy()
-            a[k], b[k] = start, end
-            found += fit(
-                lambda smooth: directly(chart, from_smooth(axes, smooth)),
-                a,
-                b,
-                TOLERANCE,
-                lambda a, b: NODES_BESIDE,
-                partial(singular_across, chart.scenario),
-            ).pieces
+            count = int(np.ceil((end - start) / (last[k] - first[k])))
+            for a, b in pairwise(np.linspace(start, end, count + 1)):
+                corners = first.copy(), last.copy()
+                corners[0][k], corners[1][k] = a, b
+                found += fit(
+                    lambda smooth: directly(chart, from_smooth(axes, smooth)),
+                    *corners,
+                    TOLERANCE,
+                    lambda low, high: MAX_BESIDE,
+                    partial(singular_across, chart.scenario),
+                ).pieces
     return tuple(found)
 
 

@@ -11,7 +11,7 @@ from compare.charts.axis import Axis
 from compare.charts.result import Chart
 from compare.edges.interpolated import axes_of, on_surface
 from compare.edges.tongue import Tongue
-from compare.edges.tracer import DOUBLINGS, MIN_SHARE, TongueTracer, follow
+from compare.edges.tracer import TongueTracer, follow
 from hill.averaging import first_order
 
 STATIONS = 33
@@ -69,16 +69,17 @@ def tongues(
         for resonance in first_order(count, chart.scenario.frequency_names(count))
         for order in range(1, orders + 1)
     ]
-    windows = [_window(TongueTracer(own, resonance), at, x) for resonance in wanted]
-    seen = [window for window in windows if window]
-    low, high = (min(a for a, _ in seen), max(b for _, b in seen)) if seen else (np.inf, 0.0)
+    within = (x.low, x.high)
+    windows = [_windows(TongueTracer(own, resonance, within), at) for resonance in wanted]
+    seen = [window for each in windows for window in each]
+    low, high = (min(a for a, _ in seen), max(b for _, b in seen)) if seen else within
     curves = on_surface(chart, max(low, x.low / FARTHEST), min(high, x.high * FARTHEST))
     found: list[Tongue] = []
-    for done, (resonance, window) in enumerate(zip(wanted, windows, strict=True), start=1):
-        if window:
+    for done, (resonance, any_there) in enumerate(zip(wanted, windows, strict=True), start=1):
+        if any_there:
             found += [
                 tongue
-                for tongue in follow(curves, resonance, at)
+                for tongue in follow(curves, resonance, at, Omega=within)
                 if np.any((tongue.upper >= x.low) & (tongue.lower <= x.high))
             ]
         if progress is not None:
@@ -86,16 +87,9 @@ def tongues(
     return distinct(found)
 
 
-def _window(tracer: TongueTracer, at: Sequence[float], x: Axis) -> tuple[float, float] | None:
-    """From where to where the tracer looks at first; None where it never looks into the chart."""
-    Omega = np.array([tracer.Omega(y) for y in at])
-    reach = np.array([tracer.window(y) for y in at])
-    there = np.isfinite(Omega) & np.isfinite(reach) & (Omega > 0.0)
-    farthest = 2.0**DOUBLINGS * reach
-    if not np.any(there & (Omega - farthest <= x.high) & (Omega + farthest >= x.low)):
-        return None
-    low, high = (Omega - reach)[there], (Omega + reach)[there]
-    return float(max(low.min(), MIN_SHARE * Omega[there].min())), float(high.max())
+def _windows(tracer: TongueTracer, at: Sequence[float]) -> list[tuple[float, float]]:
+    """What the tracer may look at, where that reaches into the chart."""
+    return [window for y in at if (window := tracer.window(y))]
 
 
 def distinct(found: Sequence[Tongue]) -> tuple[Tongue, ...]:

@@ -13,7 +13,7 @@ Pair = tuple[float, float]
 
 RANGE, TIP = "the end of the range", "its edges meet"
 NOT_REAL = "the natural frequencies are not real"
-UNSEEN = "its edges are not seen"
+UNSEEN = "no edges are seen; it may be narrower than the error of P"
 """Why a tongue goes no further."""
 
 

@@ -7,6 +7,7 @@ parameter.
 """
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -32,7 +33,7 @@ from compare.stability.indicators import (
     edges,
     interpolate_in_Omega,
 )
-from hill import Singular
+from hill import HillEquation, Singular
 from hill.averaging import Resonance, half_width
 
 Float = NDArray[np.floating[Any]]
@@ -46,6 +47,14 @@ DOUBLINGS = 2
 MIN_SHARE = 0.4
 # A window ends before a pole by this share of the way to it.
 POLE_MARGIN = 0.1
+# A tip's distance from the middle of the section next to it, in that one's widths: 0.9 at most over
+# 60 tips of the report's two beams, along gamma, T0 and K_theta; 2.5 and more where the deepest
+# point in the window was another tongue's.
+DRIFT = 1.5
+# From one section to the next the middle, measured from the resonance, moves by so many widths, or
+# by this share of Omega where it is narrow: by 0.005 of Omega at most where it moved farther than
+# 1.5 widths, in 80 tongues of the same charts; by half of Omega where it was another's edges.
+JUMP = 0.02
 # Points added towards the tip of a tongue, as squares of these shares of a step: edges meet there
 # like a parabola.
 TOWARDS_TIP = (0.1, 0.25, 0.45, 0.7)
@@ -59,36 +68,35 @@ class TongueTracer:
     ----------
     field : PolynomialField
     resonance : Resonance
+    within : (float, float), optional
+        The range of Omega that matters: where no window reaches into it, nothing is looked for.
     """
 
     field: PolynomialField
     resonance: Resonance
+    within: Pair = (0.0, np.inf)
 
     def Omega(self, y: float) -> float:
         """The resonance; nan where the frequencies are not real."""
         return self.resonance.Omega(self.field.frequencies(y))
 
-    def window(self, y: float) -> float:
-        """Half the first window about the resonance; nan without one."""
-        Omega = self.Omega(y)
-        if not Omega > 0.0:
-            return float("nan")
-        try:
-            equation = self.field.equation(Omega, y)
-        except Singular:
-            return SHIFT * Omega
-        width = half_width(self.resonance, equation, damped=False)
-        return REACH * width + SHIFT * equation.gamma**2 * Omega
+    def window(self, y: float) -> Pair | None:
+        """What the tracer may look at, doublings included; None where that is of no interest."""
+        Omega, equation = self._at(y)
+        if equation is None:
+            return None
+        undamped = half_width(self.resonance, equation, damped=False)
+        reach = 2.0**DOUBLINGS * (REACH * undamped + SHIFT * equation.gamma**2 * Omega)
+        low, high = max(Omega - reach, MIN_SHARE * Omega), min(Omega + reach, Omega / MIN_SHARE)
+        return (low, high) if low <= self.within[1] and high >= self.within[0] else None
 
     def section(self, y: float, expected: Pair | None = None) -> Section | Gap:
         """What there is at y; `expected` are the edges' offsets from the resonance."""
-        Omega = self.Omega(y)
-        if not Omega > 0.0:
-            return Gap(NOT_REAL)
-        try:
-            equation = self.field.equation(Omega, y)
-        except Singular:
-            return Gap(BESIDE_POLE)
+        Omega, equation = self._at(y)
+        if equation is None:
+            return Gap(BESIDE_POLE if Omega > 0.0 else NOT_REAL)
+        if expected is None and self.window(y) is None:
+            return Gap(RANGE)
         width, undamped = (half_width(self.resonance, equation, damped=d) for d in (True, False))
         low, high = expected or (-width, width)
         reach = REACH * max(undamped, 0.5 * (high - low)) + SHIFT * equation.gamma**2 * Omega
@@ -103,6 +111,15 @@ class TongueTracer:
                 break
             reach *= 2.0
         return section or Gap(UNSEEN)
+
+    def _at(self, y: float) -> tuple[float, HillEquation | None]:
+        """The resonance and the equation there; none where it is not real, or on a pole."""
+        Omega = self.Omega(y)
+        if not Omega > 0.0:
+            return Omega, None
+        with suppress(Singular):
+            return Omega, self.field.equation(Omega, y)
+        return Omega, None
 
     def _within(
         self, y: float, Omega: float, guess: Pair, reach: float, eta: float
@@ -144,7 +161,10 @@ class TongueTracer:
         return lo, hi
 
     def refine_tip(self, a: Section, b: Section) -> Section | None:
-        """Where between a and b, one with edges and one without, the tongue closes."""
+        """Where between a and b, one with edges and one without, the tongue closes.
+
+        None where what closes there is another one, `DRIFT` widths away or more.
+        """
         offsets = (a if a.edges else b).offsets
         if a.depth * b.depth >= 0.0:
             return None
@@ -159,6 +179,9 @@ class TongueTracer:
         at = float(brentq(depth, a.y, b.y, xtol=1e-6 * (b.y - a.y)))
         section = self.section(at, offsets)
         if not isinstance(section, Section):
+            return None
+        drift = abs(section.bottom - section.Omega - 0.5 * sum(offsets))
+        if drift > DRIFT * (offsets[1] - offsets[0]):
             return None
         return replace(section, edges=(section.bottom, section.bottom))
 
@@ -183,6 +206,7 @@ def follow(
     resonance: Resonance,
     ys: Sequence[float],
     within: Sequence[Tongue] = (),
+    Omega: Pair = (0.0, np.inf),
 ) -> tuple[Tongue, ...]:
     """The boundary of one resonance's instability over the range of y, a `Tongue` a piece.
 
@@ -194,13 +218,21 @@ def follow(
         Ascending; more are added where the tongue closes.
     within : sequence of Tongue, optional
         The same without damping: where to look for what damping leaves of it.
+    Omega : (float, float), optional
+        The range that matters.
     """
-    tracer = TongueTracer(field, resonance)
+    tracer = TongueTracer(field, resonance, Omega)
     pieces: list[_Piece] = []
     open_piece: _Piece | None = None
     last: Section | Gap | None = None
     for y in ys:
         here = _station(tracer, y, open_piece, within)
+        if (
+            open_piece
+            and isinstance(here, Section)
+            and not _continues(open_piece.sections[-1], here)
+        ):
+            here = Gap(UNSEEN)
         there = isinstance(here, Section) and here.edges is not None
         tip: Section | None = None
         turned = there != (open_piece is not None)
@@ -233,6 +265,14 @@ def _station(
         return Gap(UNSEEN)
     Omega = tracer.Omega(y)
     return tracer.section(y, (outline[0][0] - Omega, outline[0][1] - Omega))
+
+
+def _continues(before: Section, here: Section) -> bool:
+    """Whether two sections with edges can be the same tongue's."""
+    if here.edges is None:
+        return True
+    (a, b), (c, d) = before.offsets, here.offsets
+    return 0.5 * abs(c + d - a - b) <= max(DRIFT * max(b - a, d - c), JUMP * here.Omega)
 
 
 def _why(beyond: Section | Gap, tip: Section | None) -> str:

@@ -7,6 +7,8 @@ rule, have one BLAS thread each.
 """
 
 import logging
+import pickle
+import sys
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
@@ -98,7 +100,7 @@ class _Cluster:
         arranged: Callable[[list[Any]], Iterable[Any]],
     ) -> Iterator[Any]:
         # pure=False: the cluster shall not take one job for another of the same arguments
-        futures = self._client.map(function, list(jobs), pure=False)
+        futures = self._client.map(_unpacked, _packed(function, jobs), pure=False)
         out = {future.key: future for future in futures}
         try:
             for future in arranged(futures):
@@ -110,6 +112,29 @@ class _Cluster:
         finally:
             if out and self._client.status == "running":
                 self._client.cancel(list(out.values()))
+
+
+def _packed(function: Callable[[Any], Any], jobs: Iterable[Any]) -> list[bytes]:
+    """Each job as bytes, with the code of the user's own modules in it: no worker need have it."""
+    import cloudpickle
+
+    packed = []
+    for job in jobs:
+        own = [sys.modules[name] for name in getattr(job, "own_modules", ()) if name in sys.modules]
+        for module in own:
+            cloudpickle.register_pickle_by_value(module)
+        try:
+            packed.append(cloudpickle.dumps((function, job)))
+        finally:
+            for module in own:
+                cloudpickle.unregister_pickle_by_value(module)
+    return packed
+
+
+def _unpacked(packed: bytes) -> Any:
+    """Run a job, on a worker."""
+    function, job = pickle.loads(packed)
+    return function(job)
 
 
 @contextmanager

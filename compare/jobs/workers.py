@@ -1,6 +1,7 @@
 """Jobs on this process, on several, or on whatever maps like `map`."""
 
 import os
+import pickle
 import signal
 import threading
 from collections.abc import Callable, Iterable, Iterator, Mapping
@@ -85,14 +86,30 @@ class _Processes:
         self._pool, self._chunk = pool, chunk
 
     def __call__(self, function: Callable[[Any], Any], jobs: Iterable[Any]) -> Iterator[Any]:
+        wanted = list(jobs)
+        _check_sendable(function, wanted)
         with _translate_worker_loss():
-            yield from self._pool.map(function, jobs, chunksize=self._chunk)
+            yield from self._pool.map(function, wanted, chunksize=self._chunk)
 
     def unordered(self, function: Callable[[Any], Any], jobs: Iterable[Any]) -> Iterator[Any]:
         """Results as they are ready."""
+        wanted = list(jobs)
+        _check_sendable(function, wanted)
         with _translate_worker_loss():
-            for future in as_completed([self._pool.submit(function, job) for job in jobs]):
+            for future in as_completed([self._pool.submit(function, job) for job in wanted]):
                 yield future.result()
+
+
+def _check_sendable(function: Callable[[Any], Any], jobs: list[Any]) -> None:
+    """Refuse what no process could be given, in the words of what is wrong with it."""
+    try:
+        pickle.dumps((function, jobs[:1]))
+    except (pickle.PicklingError, AttributeError, TypeError) as error:
+        words = " ".join(str(error).split())
+        raise ValueError(
+            f"workers: a job cannot be sent to another process ({words}); a system's class must "
+            "stand at the top of a script or a module"
+        ) from None
 
 
 @contextmanager
@@ -102,7 +119,7 @@ def _translate_worker_loss() -> Iterator[None]:
     except BrokenProcessPool:
         raise WorkersError(
             "workers: a process died, killed or out of memory; or the calling script is not "
-            'guarded by if __name__ == "__main__"'
+            'guarded by if __name__ == "__main__", or has its system\'s class behind that line'
         ) from None
 
 

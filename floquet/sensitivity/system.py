@@ -1,50 +1,42 @@
-"""How T and z move with the parameters of the report's beams.
+"""How T and z move with the parameters of a system.
 
-The chain rule: what T owes to the elements of F and G, times what they owe to the parameter. The
-matrices are linear in T0, K_theta and the inertia ratio and analytic in the others.
+The chain rule: what T owes to the numbers of the equation (`floquet.sensitivity.equation`), times
+what they owe to the parameter (`floquet.sensitivity.numbers`).
 """
 
-from dataclasses import dataclass, fields, replace
-from math import inf, isfinite
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import isfinite
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from floquet.sensitivity.derivative import differentiate
+from floquet.arrays import EPS, Complex, Float
 from floquet.sensitivity.equation import Derivatives, sensitivities
-from floquet.weak_form import galerkin
-from hill import SteppedBeam, UniformBeam
-
-Complex = NDArray[np.complexfloating[Any, Any]]
-Float = NDArray[np.floating[Any]]
-Beam = UniformBeam | SteppedBeam
-EPS = float(np.finfo(float).eps)
-
-FAR = 2.0**30
-LINEAR = {"T0": (-FAR, FAR), "K_theta": (-FAR, FAR), "inertia_ratio": (1.0 / FAR, FAR)}
-"""Two values of what F and G are linear in, so far apart that no digit cancels."""
-
-BOUNDS = {"xi_G": (0.0, 1.0), "xi_c": (0.0, 1.0), "g": (-1e4, 1e4)}
-"""Ranges of the others; positive where nothing is said. G is even in g, Re f(sigma^2 - i g)."""
-
-UNMOVED = {"omega_L": 0, "g": 0, "inertia_ratio": 1}
-"""Which of (F, G) does not know the parameter."""
+from floquet.sensitivity.numbers import FORCING, Moved, moved_by
+from floquet.witness import matrices_of
+from hill import HillEquation, SteppedBeam, UniformBeam, parameter_values
 
 
 @dataclass(frozen=True, eq=False)
-class BeamSensitivities:
+class SystemSensitivities:
     """T, z and their derivatives by parameter, each with a bound on its absolute error.
+
+    The bounds are for the equation's numbers as they are made; of a parameter that is not linear
+    they stand on an estimate, of what a Chebyshev series leaves out, times 4.
 
     Attributes
     ----------
     values : dict of str to float
-        The parameters: Omega, gamma, eta, then the beam's own; omega_L only where it is finite.
+        The parameters: Omega, gamma, eta, then the system's own, as far as they are finite.
     T : float
-    z : (N + 1,) complex ndarray
+    z : (n,) complex ndarray
+        Empty with a damping matrix.
     dT, dT_error : dict of str to float
-    dz : dict of str to (N + 1,) complex ndarray
-    dz_error : dict of str to (N + 1,) float ndarray
+    dz : dict of str to (n,) complex ndarray
+    dz_error : dict of str to (n,) float ndarray
+    shared_matrices : bool
+        Whether the matrices are the system's own, because the witness has none.
     """
 
     values: dict[str, float]
@@ -54,55 +46,55 @@ class BeamSensitivities:
     dT_error: dict[str, float]
     dz: dict[str, Complex]
     dz_error: dict[str, Float]
+    shared_matrices: bool
 
 
-# What a beam has beside numbers that may be varied.
-FIXED = ("modes", "quadrature_force")
+BeamSensitivities = SystemSensitivities
 
 
-def beam_sensitivities(
-    beam: Beam, Omega: float, gamma: float, eta: float = 0.0
-) -> BeamSensitivities:
-    """Differentiate T and z with respect to every continuous parameter of a beam.
+def system_sensitivities(
+    system: Any, *, Omega: float, gamma: float, eta: float = 0.0
+) -> SystemSensitivities:
+    """Differentiate T and z with respect to every parameter of a system and its forcing.
 
     Parameters
     ----------
-    beam : UniformBeam or SteppedBeam
+    system : System
+        A beam, whose matrices are the witness's own, or anybody's.
     Omega : float
-        Forcing frequency over ``omega_1``, > 0. With a finite ``omega_L`` the axial force, and
-        with it G, depends on it too: that is in the derivative.
+        Forcing frequency, > 0. Where the matrices move with it, that is in the derivative; with H
+        omega_L keeps its ratio to it.
     gamma : float
-        Thrust ratio T1/T0.
+        Depth of the pulsation; the report's thrust ratio T1/T0.
     eta : float, optional
-        Transverse damping over ``omega_1``.
+        Damping.
 
     Returns
     -------
-    BeamSensitivities
+    SystemSensitivities
 
     Raises
     ------
     ValueError
-        As for `floquet.weak_form.galerkin` and `sensitivities`.
+        As for `sensitivities`: T or z has no derivative there. A parameter too close to where a
+        coefficient is singular; what is out of range.
     """
-    if isinstance(beam, UniformBeam) and beam.quadrature_force:
-        raise ValueError("quadrature_force = True: must be False, sensitivities are of T in z")
-    model = galerkin(beam, Omega, gamma, eta)
+    make, shared = matrices_of(system)
+    forcing = {"Omega": Omega, "gamma": gamma, "eta": eta}
+    model = make(system, **forcing)
+    if not isinstance(model, HillEquation):
+        raise ValueError(
+            f"{type(system).__name__}: must have a HillEquation, has a {type(model).__name__}"
+        )
     s = sensitivities(model)
-    own = {f.name: float(vars(beam)[f.name]) for f in fields(beam) if f.name not in FIXED}
-    own = {name: value for name, value in own.items() if isfinite(value)}
-    moved = {name: matrix_derivatives(beam, Omega, name) for name in own}
-    none = np.zeros((2, *model.F.shape)), np.zeros(2)
-    moved |= {"Omega": none, "gamma": none, "eta": none}
-    if "omega_L" in own:
-        # only their ratio enters
-        by_Omega = -beam.omega_L / model.Omega
-        moved["Omega"] = by_Omega * moved["omega_L"][0], abs(by_Omega) * moved["omega_L"][1]
-
-    values = {"Omega": model.Omega, "gamma": model.gamma, "eta": model.damping} | own
-    T = {name: _chain(name, s.dT, s.dT_error, *moved[name]) for name in values}
-    z = {name: _chain(name, s.dz, s.dz_error, *moved[name]) for name in values}
-    return BeamSensitivities(
+    own = {name: x for name, x in parameter_values(system).items() if isfinite(x)}
+    values = {name: float(x) for name, x in forcing.items()} | own
+    T, z = {}, {}
+    for name, value in values.items():
+        moved = moved_by(system, name, **forcing, value=value)
+        T[name] = _chain(name, s.dT, s.dT_error, moved)
+        z[name] = _chain(name, s.dz, s.dz_error, moved)
+    return SystemSensitivities(
         values=values,
         T=s.T,
         z=s.z,
@@ -110,62 +102,36 @@ def beam_sensitivities(
         dT_error={name: float(error) for name, (_, error) in T.items()},
         dz={name: found for name, (found, _) in z.items()},
         dz_error={name: error for name, (_, error) in z.items()},
+        shared_matrices=shared,
     )
 
 
-def matrix_derivatives(beam: Beam, Omega: float, name: str) -> tuple[Float, Float]:
-    """Derivatives of F and G with respect to a parameter of the beam, at a fixed Omega.
-
-    Parameters
-    ----------
-    beam : UniformBeam or SteppedBeam
-    Omega : float
-        Forcing frequency; G depends on it where ``omega_L`` is finite.
-    name : str
-        A field of the beam but ``modes``.
-
-    Returns
-    -------
-    (2, N + 1, N + 1) ndarray
-        dF and dG.
-    (2,) ndarray
-        Bounds on the absolute error of the elements of each.
-    """
-
-    def matrices(value: float) -> Float:
-        value = abs(value) if name == "g" else value
-        there = galerkin(replace(beam, **{name: value}), Omega, 0.0)  # type: ignore[arg-type]
-        return np.array([there.F, there.G])
-
-    if name in LINEAR:
-        low, high = LINEAR[name]
-        found: Float = (matrices(high) - matrices(low)) / (high - low)
-        error: Float = 32.0 * EPS * np.abs(found).max(axis=(1, 2))
-    else:
-        value = float(vars(beam)[name])
-        low, high = BOUNDS.get(name, (0.0, inf))
-        width = 0.5 if name in BOUNDS else 0.5 * value
-        try:
-            found, error = differentiate(matrices, value, low, high, width)
-        except ValueError:
-            raise ValueError(
-                f"{name} = {value:g}: is too close to where F or G is singular to differentiate"
-            ) from None
-    if name in UNMOVED:
-        found[UNMOVED[name]] = error[UNMOVED[name]] = 0.0
-    return found, error
+def beam_sensitivities(
+    beam: UniformBeam | SteppedBeam, Omega: float, gamma: float, eta: float = 0.0
+) -> SystemSensitivities:
+    """`system_sensitivities` of one of the report's beams, T1/T0 = gamma, all over ``omega_1``."""
+    return system_sensitivities(beam, Omega=Omega, gamma=gamma, eta=eta)
 
 
-def _chain(
-    name: str, slope: Derivatives, error: Derivatives, moved: Float, unsure: Float
-) -> tuple[Any, Any]:
-    """Derivative through F and G, and straight where the equation has the parameter itself."""
-    total: Any = vars(slope).get(name, 0.0)
-    bound: Any = vars(error).get(name, 0.0)
-    for k, key in enumerate(("F", "G")):
-        terms, doubt = vars(slope)[key] * moved[k], vars(error)[key]
-        total = total + terms.sum(axis=(-2, -1))
-        bound = bound + 4.0 * EPS * np.abs(terms).sum(axis=(-2, -1))
-        bound = bound + (doubt * (np.abs(moved[k]) + unsure[k])).sum(axis=(-2, -1))
-        bound = bound + (np.abs(vars(slope)[key]) * unsure[k]).sum(axis=(-2, -1))
+def _chain(name: str, slope: Derivatives, error: Derivatives, moved: Moved) -> tuple[Any, Any]:
+    """Derivative through the equation's numbers, and straight where the forcing is one of them."""
+    of, doubt = vars(slope), vars(error)
+    total, bound = (_straight(by, name) for by in (of, doubt))
+    for key, change in moved.slope.items():
+        axes = tuple(range(-np.ndim(change), 0))
+        unsure = moved.error[key]
+        terms = of[key] * change
+        total = total + np.sum(terms, axis=axes)
+        bound = bound + 4.0 * EPS * np.sum(np.abs(terms), axis=axes)
+        bound = bound + np.sum(doubt[key] * (np.abs(change) + unsure), axis=axes)
+        bound = bound + np.sum(np.abs(of[key]) * unsure, axis=axes)
     return total, bound
+
+
+def _straight(by: Mapping[str, Any], name: str) -> Any:
+    """What is owed to the forcing's own number; to eta along the whole diagonal of a matrix."""
+    if name not in FORCING:
+        return 0.0
+    found = by[name]
+    whole = name == "eta" and np.ndim(found) >= 2 and np.shape(found)[-1] == np.shape(found)[-2]
+    return np.trace(found, axis1=-2, axis2=-1) if whole else found
