@@ -72,5 +72,5 @@ def test_without_damping_there_is_no_such_part() -> None:
 def test_refusals() -> None:
     with pytest.raises(ValueError, match="quadrature_force = 1: must be True or False"):
         UniformBeam(T0=1.0, K_theta=0.0, xi_G=0.0, quadrature_force=1)  # type: ignore[arg-type]
-    with pytest.raises(ValueError, match="quadrature_force = True: must be False"):
+    with pytest.raises(ValueError, match="UniformBeam: must have a HillEquation"):
         beam_sensitivities(whole(0.04), Omega=2.0, gamma=0.1)
