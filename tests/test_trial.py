@@ -1,5 +1,7 @@
 """The trial of the bounds on a sample, and what it catches."""
 
+import json
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -20,6 +22,26 @@ def test_no_bound_is_too_small(capsys: pytest.CaptureFixture[str]) -> None:
     assert all(f"\n{route} " in told for route in trial.ROUTES)
     assert "\nmatrices, gamma " in told
     assert all(len(line.rstrip()) <= 80 for line in told.splitlines())
+
+
+@pytest.mark.parametrize(
+    ("part", "classes"),
+    [
+        ("bounds", ["growth", "tongue edges"]),
+        ("sensitivities", ["growth", "defective"]),
+        ("edges", ["matrices, gamma"]),
+    ],
+)
+def test_all_that_was_counted_is_in_the_file(
+    part: str, classes: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "trial.json"
+    words = ["--part", part, "--count", "32", "--jobs", "1", "--json", str(path)]
+    assert run.main([*words, "--classes", *classes]) == 0
+    found = json.loads(path.read_text())[part]
+    assert {line["class"] for line in found["lines"]} == set(classes)
+    assert found["violations"] == []
+    assert "refused" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(

@@ -67,7 +67,7 @@ class Measured:
     @property
     def inflated(self) -> bool:
         """Whether the bound is far too large, and no word said so."""
-        return self.slack > INFLATED and not self.told
+        return bool(self.slack > INFLATED and not self.told)
 
 
 @dataclass(frozen=True)
@@ -212,7 +212,7 @@ def _judge_T(answer: Answer, known: Truth, shrink: float, wrong: dict[str, str])
         return None
     e = known.equation
     size = max(e.Omega / np.pi, abs(answer.T), float(np.max(np.abs(e.eta))))
-    told = reported > POOR * size or answer.verdict == "undecided"
+    told = bool(reported > POOR * size) or answer.verdict == "undecided"
     return one_number("T", answer.T, growth.T, reported, size, told, wrong)
 
 
@@ -244,4 +244,4 @@ def one_number(
     ratio = true / reported if reported > 0.0 else float("inf") if beyond else 0.0
     if beyond:
         wrong[name] = f"off by {true:.3g}, reported {reported:.3g}: {ratio:.3g} times"
-    return Measured(ratio, reported / max(true, EPS * size), told)
+    return Measured(ratio, float(reported) / max(true, EPS * size), bool(told))

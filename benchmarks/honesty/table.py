@@ -78,7 +78,7 @@ def _number(answered: Sequence[Judged], name: str) -> Number:
     return Number(
         ratio=_quantiles(m.ratio for m in measured),
         slack=_quantiles(m.slack for m in measured)[0],
-        inflated=sum(m.slack > INFLATED for m in measured),
+        inflated=sum(bool(m.slack > INFLATED) for m in measured),
         silent=sum(m.inflated for m in measured),
         unjudged=sum(name in x.unjudged for x in answered),
     )
