@@ -4,7 +4,6 @@ import io
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
-from textwrap import wrap
 from typing import Any
 
 import numpy as np
@@ -191,22 +190,23 @@ def _disagreement(figure: Any, axes: Any, chart: Chart) -> None:
 
 
 def _name(axes: Any, chart: Chart, boundaries: Sequence[Tongue]) -> None:
-    """Names of the wider tongues along the far side of the frame, none on top of another."""
+    """Names of the wider tongues at their far ends, none on top of another."""
     x, y = chart.axes
     along, other = (x, y) if x.name == "Omega" else (y, x)
     tops = []
     for tongue in boundaries:
-        pair = tongue.at(other.high) or tongue.at(float(tongue.y[-1]))
-        if pair and along.low < sum(pair) / 2 < along.high:
-            tops.append((pair[1] - pair[0], sum(pair) / 2, _math(tongue.resonance)))
+        end = min(other.high, float(tongue.y[-1]))
+        low, high = tongue.at(end) or (np.nan, np.nan)
+        if along.low < 0.5 * (low + high) < along.high:
+            tops.append((high - low, 0.5 * (low + high), end, _math(tongue.resonance)))
     taken: list[float] = []
     upright = along is x
-    for _, centre, name in sorted(tops, reverse=True):
+    for _, centre, end, name in sorted(tops, reverse=True):
         if all(abs(centre - t) > 0.03 * (along.high - along.low) for t in taken):
             taken.append(centre)
             axes.annotate(
                 name,
-                (centre, other.high) if upright else (other.high, centre),
+                (centre, end) if upright else (end, centre),
                 xytext=(0, -3) if upright else (-3, 0),
                 textcoords="offset points",
                 rotation=90 if upright else 0,
@@ -268,7 +268,22 @@ def _title(chart: Chart, given: str) -> str:
     if chart.route == "both":
         words += f"; the routes differ by {chart.disagreement:.0e} of P at most"
         words += ", with the same matrices" if chart.shared_matrices else ""
-    return "\n".join(wrap(words, TITLE_WIDTH, break_long_words=False, break_on_hyphens=False))
+    return "\n".join(_wrapped(words.split(" ")))
+
+
+def _wrapped(words: list[str]) -> list[str]:
+    """Lines of words, as long as they look: mathematics has letters that are not seen."""
+    lines: list[str] = []
+    length = TITLE_WIDTH
+    for word in words:
+        seen = len(re.sub(r"\\mathrm|\\[A-Za-z]+|[${}_\\]", lambda m: "x" * (len(m[0]) > 1), word))
+        length += 1 + seen
+        if length > TITLE_WIDTH:
+            lines.append(word)
+            length = seen
+        else:
+            lines[-1] += f" {word}"
+    return lines
 
 
 def _value(value: float) -> str:

@@ -9,7 +9,7 @@ from rich.table import Table
 from compare.charts.compute import CHECKS
 from compare.charts.result import Chart
 from compare.edges.instabilities import Instability
-from compare.edges.tongue import RANGE, TIP
+from compare.edges.tongue import RANGE, TIP, UNSEEN
 from compare.edges.unnamed import Region
 
 
@@ -21,8 +21,8 @@ def describe(result: Chart) -> list[str]:
         f"{size} points from {result.nodes} evaluations of P in {result.seconds:.1f} s"
         + (f" ({result.resumed} of them were on disk)" if result.resumed else "")
         + f"; {_share(unstable)} unstable, {_share(undecided)} undecided, T at most "
-        f"{np.max(result.T):.5f}.",
-        f"P is known to {result.relative_error:.0e} of its largest coefficient; "
+        f"{_largest(result)}.",
+        f"P is known to {result.relative_error:.0e} of its largest coefficient at worst; "
         f"{_checked(result)}.",
     ]
     lines += [f"{count} points went one by one: {why}." for why, count in result.one_by_one.items()]
@@ -32,6 +32,17 @@ def describe(result: Chart) -> list[str]:
             + (", with the same matrices." if result.shared_matrices else ".")
         )
     return lines
+
+
+def _largest(result: Chart) -> str:
+    """The largest T, and what is known of it."""
+    k = np.unravel_index(np.argmax(result.T), result.T.shape)
+    if not np.isfinite(result.T[k]):
+        return "beyond a float"
+    # the last axis comes first in T
+    at = zip(result.axes, reversed(k), strict=True)
+    there = result.at(**{axis.name: axis.points[index] for axis, index in at})
+    return f"{result.T[k]:.5f} +- {there.T_error[0]:.0e}"
 
 
 def _checked(result: Chart) -> str:
@@ -44,13 +55,24 @@ def _checked(result: Chart) -> str:
     return f"the series could be checked at none of {CHECKS} random points"
 
 
-def ended(found: Sequence[Instability]) -> Iterator[str]:
-    """The tongues that go no further, and why, where that is not plain."""
+def ended(found: Sequence[Instability], other: str) -> Iterator[str]:
+    """The tongues that go no further, and why, where that is not plain.
+
+    Those whose edges come too near each other to be seen are told together.
+    """
+    unseen: dict[str, list[str]] = {}
     for i in found:
-        ends = ((i.tongue.begins, "begins", 0), (i.tongue.ends, "ends", -1))
+        ends = ((i.tongue.begins, "from", 0), (i.tongue.ends, "up to", -1))
         for why, word, at in ends:
-            if why not in (RANGE, TIP):
-                yield f"{i.resonance.name} {word} at {i.tongue.y[at]:.5g}: {why}."
+            y = f"{i.tongue.y[at]:.3g}"
+            if why == UNSEEN:
+                unseen.setdefault(f"{word} {other} = {y}", []).append(i.resonance.name)
+            elif why not in (RANGE, TIP):
+                reach = "begins" if word == "from" else "ends"
+                yield f"{i.resonance.name} {reach} at {other} = {y}: {why}."
+    if unseen:
+        parts = (f"{where}, {', '.join(names)}" for where, names in unseen.items())
+        yield f"Followed only where edges are seen, beyond the error of P: {'; '.join(parts)}."
 
 
 def told(region: Region) -> str:

@@ -7,7 +7,7 @@ it), is left to direct evaluation.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -116,10 +116,10 @@ def fit(
     """
     known = _Known(sample, np.asarray(low, float), np.asarray(high, float))
     pieces: list[Piece] = []
-    pending = [(np.asarray(low, float), np.asarray(high, float), (0,) * len(low))]
+    pending = [(np.asarray(low, float), np.asarray(high, float), (0,) * len(low), "")]
     share, whole = 0.0, float(np.prod(known.high - known.low))
     while pending:
-        a, b, cuts = pending.pop()
+        a, b, cuts, before = pending.pop()
         most = wanted(a, b)
         across = singular(a, b)
         found: Piece | _Cut
@@ -132,7 +132,8 @@ def fit(
         if isinstance(found, _Cut) and cuts[found.axis] >= MAX_CUTS:
             found = Piece(a, b, None, np.inf, why=found.why)
         if isinstance(found, Piece):
-            pieces.append(found)
+            # what the larger rectangle was cut for says more than that the rest is small
+            pieces.append(replace(found, why=before) if found.why == SLOW and before else found)
             share += float(np.prod(b - a)) / whole
             if covered is not None:
                 covered(share)
@@ -141,7 +142,7 @@ def fit(
             deeper = tuple(c + (j == k) for j, c in enumerate(cuts))
             left, right = b.copy(), a.copy()
             left[k] = right[k] = 0.5 * (a[k] + b[k])
-            pending += [(right, b, deeper), (a, left, deeper)]
+            pending += [(right, b, deeper, found.why), (a, left, deeper, found.why)]
     return Surface(tuple(pieces), len(known.values))
 
 

@@ -128,10 +128,12 @@ def run(options: argparse.Namespace) -> int:
         if options.tongues is not None:
             other = axes_of(result)[1].name
             write_whole(options.tongues, chart_files.tongues_csv(result, found, other))
+    lines = [*describe(result), *map(told, nameless)]
     if found:
-        console = terminal()
-        console.print(tongue_table(found, axes_of(result)[1].name, console.width))
-    for line in (*describe(result), *ended(found), *map(told, nameless)):
+        other, console = axes_of(result)[1].name, terminal()
+        console.print(tongue_table(found, other, console.width))
+        lines += ended(found, other)
+    for line in lines:
         print(line)
     return int(not result.routes_agree)
 

@@ -17,6 +17,7 @@ from scipy.optimize import brentq
 
 from compare.edges.field import PolynomialField
 from compare.edges.tongue import (
+    DRIFT,
     NOT_REAL,
     RANGE,
     TIP,
@@ -25,6 +26,8 @@ from compare.edges.tongue import (
     Pair,
     Section,
     Tongue,
+    continued,
+    continues,
 )
 from compare.stability.indicators import (
     BESIDE_POLE,
@@ -47,14 +50,6 @@ DOUBLINGS = 2
 MIN_SHARE = 0.4
 # A window ends before a pole by this share of the way to it.
 POLE_MARGIN = 0.1
-# A tip's distance from the middle of the section next to it, in that one's widths: 0.9 at most over
-# 60 tips of the report's two beams, along gamma, T0 and K_theta; 2.5 and more where the deepest
-# point in the window was another tongue's.
-DRIFT = 1.5
-# From one section to the next the middle, measured from the resonance, moves by so many widths, or
-# by this share of Omega where it is narrow: by 0.005 of Omega at most where it moved farther than
-# 1.5 widths, in 80 tongues of the same charts; by half of Omega where it was another's edges.
-JUMP = 0.02
 # Points added towards the tip of a tongue, as squares of these shares of a step: edges meet there
 # like a parabola.
 TOWARDS_TIP = (0.1, 0.25, 0.45, 0.7)
@@ -110,7 +105,12 @@ class TongueTracer:
             if section is None or section.edges is not None or section.depth >= 0.0:
                 break
             reach *= 2.0
-        return section or Gap(UNSEEN)
+        if section is None:
+            return Gap(UNSEEN)
+        cut = section.edges is None and section.depth < 0.0
+        if cut and len(self.field.poles(y, Omega - reach, Omega + reach)):
+            return Gap(BESIDE_POLE)
+        return section
 
     def _at(self, y: float) -> tuple[float, HillEquation | None]:
         """The resonance and the equation there; none where it is not real, or on a pole."""
@@ -230,7 +230,7 @@ def follow(
         if (
             open_piece
             and isinstance(here, Section)
-            and not _continues(open_piece.sections[-1], here)
+            and not continues(open_piece.sections[-1], here)
         ):
             here = Gap(UNSEEN)
         there = isinstance(here, Section) and here.edges is not None
@@ -259,7 +259,7 @@ def _station(
     tracer: TongueTracer, y: float, piece: _Piece | None, within: Sequence[Tongue]
 ) -> Section | Gap:
     if not within:
-        return tracer.section(y, _continued(piece.sections if piece else [], y))
+        return tracer.section(y, continued(piece.sections if piece else [], y))
     outline = [pair for tongue in within if (pair := tongue.at(y))]
     if not outline:
         return Gap(UNSEEN)
@@ -267,31 +267,11 @@ def _station(
     return tracer.section(y, (outline[0][0] - Omega, outline[0][1] - Omega))
 
 
-def _continues(before: Section, here: Section) -> bool:
-    """Whether two sections with edges can be the same tongue's."""
-    if here.edges is None:
-        return True
-    (a, b), (c, d) = before.offsets, here.offsets
-    return 0.5 * abs(c + d - a - b) <= max(DRIFT * max(b - a, d - c), JUMP * here.Omega)
-
-
 def _why(beyond: Section | Gap, tip: Section | None) -> str:
     """Why a piece goes no further."""
     if tip is not None:
         return TIP
     return beyond.why if isinstance(beyond, Gap) else UNSEEN
-
-
-def _continued(before: list[Section], y: float) -> Pair | None:
-    """Offsets continued in a straight line from the last two sections."""
-    if len(before) < 2:
-        return before[0].offsets if before else None
-    first, last = before[-2:]
-    if last.y == first.y:  # a tip upon a station
-        return last.offsets
-    t = min(1.0, (y - last.y) / (last.y - first.y))
-    low, high = (b + t * (b - a) for a, b in zip(first.offsets, last.offsets, strict=True))
-    return (low, high) if low < high else last.offsets
 
 
 def _tongue(resonance: Resonance, piece: _Piece) -> Tongue:
