@@ -10,8 +10,11 @@ from scipy.optimize import brentq
 from compare import Chart, chart
 from compare.edges.curves import Curve, boundaries
 from compare.edges.instabilities import Instability, instabilities
+from compare.edges.interpolated import SECTIONS, on_surface
 from compare.edges.on_chart import distinct, tongues
-from compare.stability.indicators import edge_function
+from compare.edges.tongue import RANGE
+from compare.edges.unnamed import unnamed
+from compare.stability.indicators import BESIDE_POLE, edge_function
 from floquet import monodromy
 from floquet.weak_form import galerkin
 from hill import SteppedBeam, UniformBeam, characteristic
@@ -234,3 +237,61 @@ def test_a_chart_across_longitudinal_resonances() -> None:
         soft.at(Omega=2.95, omega_L=2.95)
     (own,) = (t for t in tongues(soft, orders=1) if t.resonance.name == "omega_(2) + omega_(B)")
     assert len(own.y) > 3
+
+
+def test_a_tongue_centred_outside_the_range_is_followed() -> None:
+    """Of 2 omega_(B) at .3825 only the upper half is in the chart."""
+    frequencies = BEAM.natural_frequencies()
+    axes = [("Omega", 0.385, 0.5, 60), ("gamma", 0.0, 0.3, 40)]
+    c = chart(BEAM, axes, route="floquet")
+    found = {i.resonance.name: i for i in instabilities(c)}
+    own = found["2 omega_(B)"]
+    assert own.resonance.Omega(frequencies.astype(complex)) < 0.385
+    inside = c.unstable()
+    assert inside.mean() > 0.05
+    # every unstable point is in one of the tongues
+    assert unnamed(c, [i.tongue for i in found.values()]) == ()
+    low, high = own.tongue.at(0.2) or (0.0, 0.0)
+    assert low < 0.385 < high
+    for Omega, verdict in ((high - 1e-3, "unstable"), (high + 1e-3, "stable")):
+        assert characteristic(BEAM.equation(Omega, 0.2)).verdict == verdict
+
+
+def test_a_tongue_says_why_it_ends_at_a_pole() -> None:
+    """2 omega_(1) about Omega = 1.82: a resonance of the bar crosses it where omega_L is that."""
+    axes = [("Omega", 1.6, 2.4, 60), ("omega_L", 1.5, 3.0, 50)]
+    c = chart(BEAM, axes, forcing={"gamma": 0.1}, route="floquet")
+    pieces = [t for t in tongues(c, orders=1) if t.resonance.name == "2 omega_(1)"]
+    (upper,) = (t for t in pieces if t.y[-1] == 3.0)
+    assert upper.begins == BESIDE_POLE
+    assert upper.ends == RANGE
+    # it goes on to where the pole is less than half of omega_L away
+    assert upper.y[0] < 2.3
+    for k in (2, -3):
+        beam = replace(BEAM, omega_L=float(upper.y[k]))
+        width = float(upper.upper[k] - upper.lower[k])
+        for Omega, verdict in (
+            (upper.lower[k] - 0.05 * width, "stable"),
+            (upper.lower[k] + 0.05 * width, "unstable"),
+        ):
+            assert characteristic(beam.equation(float(Omega), 0.1)).verdict == verdict
+
+
+def test_no_tongue_jumps_to_another() -> None:
+    """The third order of two differences crosses many tongues along K_theta."""
+    beam = SteppedBeam(T0=20.0, K_theta=1.0, xi_G=0.5, xi_c=0.6, area_ratio=0.6, inertia_ratio=0.6)
+    axes = [("Omega", 0.35, 6.0, 60), ("K_theta", 0.1, 2.0, 30)]
+    c = chart(beam, axes, forcing={"gamma": 0.1}, route="floquet")
+    field = on_surface(c)
+    for t in tongues(c):
+        Omega = np.array([t.resonance.Omega(field.frequencies(float(y))) for y in t.y])
+        offsets, widths = 0.5 * (t.lower + t.upper) - Omega, t.upper - t.lower
+        allowed = np.maximum(1.5 * np.maximum(widths[1:], widths[:-1]), 0.02 * Omega[1:])
+        assert np.all(np.abs(np.diff(offsets)) <= allowed), t.resonance.name
+
+
+def test_series_kept_are_bounded() -> None:
+    field = on_surface(made(0.0))
+    for y in np.linspace(0.0, 0.4, SECTIONS + 50):
+        field.along(np.array([1.0]), float(y))
+    assert field._section.cache_info().currsize == SECTIONS

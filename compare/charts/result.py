@@ -18,6 +18,9 @@ from hill import Singular
 
 Float = NDArray[np.floating[Any]]
 
+MAX_ASKED_AGAIN = 10_000
+"""Points that the series leaves undecided and that are then evaluated: a second or two."""
+
 SAME = 1e-11
 """Of P's largest coefficient: the routes are said to differ beyond it, however small P's bound."""
 
@@ -160,7 +163,26 @@ class Chart:
             there = cells.there
             own[there] = self.scenario.reading.verdicts(*self._known(cells, Omega, eta))
             result[np.ix_(*cells.chosen)] = own.reshape(cells.shape)
+        self._ask_again(result)
         return np.ascontiguousarray(result.T)
+
+    def _ask_again(self, verdict: NDArray[np.str_]) -> None:
+        """Decide by direct evaluation, which knows P better, what the series leaves undecided."""
+        open_points = np.argwhere((verdict == "undecided") & np.isfinite(self.T.T))
+        if not 0 < len(open_points) <= MAX_ASKED_AGAIN or not any(
+            piece.series is not None for piece in self.surface.pieces
+        ):
+            return
+        index = tuple(open_points.T)
+        values = [axis.points[i] for axis, i in zip(self.axes, index, strict=True)]
+        P, error = directly(self, np.column_stack(values))
+        named = dict(zip(self.scenario.names, values, strict=True))
+        Omega, eta = (
+            np.broadcast_to(v, len(open_points)) for v in Omega_and_eta(self.scenario, named)
+        )
+        known = np.flatnonzero(np.all(np.isfinite(P), axis=1) & np.isfinite(error))
+        found = self.scenario.reading.solve(P[known], error[known], Omega[known], eta[known])
+        verdict[tuple(open_points[known].T)] = found.verdict
 
     @cached_property
     def _T_error(self) -> Float:
