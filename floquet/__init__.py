@@ -4,6 +4,7 @@ from floquet.general.of_time import EstimatedMonodromy
 from floquet.period import monodromy
 from floquet.result import Monodromy
 from floquet.sensitivity.equation import Derivatives, Sensitivities, sensitivities
+from floquet.sensitivity.general import GeneralSensitivities, general_sensitivities
 from floquet.sensitivity.system import (
     BeamSensitivities,
     SystemSensitivities,
@@ -15,10 +16,12 @@ __all__ = [
     "BeamSensitivities",
     "Derivatives",
     "EstimatedMonodromy",
+    "GeneralSensitivities",
     "Monodromy",
     "Sensitivities",
     "SystemSensitivities",
     "beam_sensitivities",
+    "general_sensitivities",
     "monodromy",
     "sensitivities",
     "system_sensitivities",

@@ -26,7 +26,7 @@ ORDER = 24
 CHUNK_NUMBERS = 1 << 18
 
 # Rounding, in ulps of the moduli summed: what `monodromy` takes for it where its two runs differ by
-# an ulp. Over 300 random equations, held against `monodromy`, 0.03 of the bound at most.
+# an ulp. Over 50 random equations, held against ball arithmetic, 0.06 of the bound at most.
 ULPS = 12.5
 
 # Relative bound above which `monodromy` is asked, whose two runs know better.

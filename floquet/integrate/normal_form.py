@@ -110,7 +110,9 @@ class NormalForm:
         return np.concatenate([self.units, self.units / unit])
 
 
-def normal_form(equation: PeriodicEquation, rounded: Float | float = 0.0) -> NormalForm:
+def normal_form(
+    equation: PeriodicEquation, rounded: Float | float = 0.0, *, every: bool = False
+) -> NormalForm:
     """Divide by the mass, to an ulp of each element, and balance by powers of two.
 
     Parameters
@@ -118,13 +120,15 @@ def normal_form(equation: PeriodicEquation, rounded: Float | float = 0.0) -> Nor
     equation : PeriodicEquation
     rounded : (n, n) ndarray, optional
         What K is off already, at any time; the mass is the identity then.
+    every : bool, optional
+        Whether terms that are zero are kept.
     """
     first, second = (equation.A, None) if equation.A else (equation.K, equation.C)
     assert first is not None
     n = first.n
     harmonics = sorted({*first.harmonics, *(second.harmonics if second else ())})
-    K, stiffness_terms = _stacked(first, harmonics)
-    C, damping_terms = _stacked(second, harmonics) if second else (np.zeros((1, n, n)), ())
+    K, stiffness_terms = _stacked(first, harmonics, every)
+    C, damping_terms = _stacked(second, harmonics, every) if second else (np.zeros((1, n, n)), ())
     off = equation.data_error * np.array([np.max(np.abs(K)), np.max(np.abs(C))])
     data = np.ones((2, n, n)) * off[:, None, None]
     lost = np.array([np.zeros((n, n)) + rounded, np.zeros((n, n))])
@@ -142,7 +146,7 @@ def normal_form(equation: PeriodicEquation, rounded: Float | float = 0.0) -> Nor
             harmonics=len(harmonics),
             stiffness=stiffness_terms,
             damping=damping_terms,
-            damped=bool(np.any(C)),
+            damped=second is not None and (every or bool(np.any(C))),
         ),
         Omega=equation.Omega,
         harmonics=tuple(harmonics),
@@ -154,11 +158,13 @@ def normal_form(equation: PeriodicEquation, rounded: Float | float = 0.0) -> Nor
     )
 
 
-def _stacked(matrix: Fourier, harmonics: list[int]) -> tuple[Float, tuple[Harmonic, ...]]:
+def _stacked(
+    matrix: Fourier, harmonics: list[int], every: bool
+) -> tuple[Float, tuple[Harmonic, ...]]:
     parts, terms = [matrix.mean], []
     for is_sine, given in ((False, matrix.cos), (True, matrix.sin)):
         for k, part in given.items():
-            if np.any(part):
+            if every or np.any(part):
                 parts.append(part)
                 terms.append((harmonics.index(k), is_sine))
     return np.array(parts), tuple(terms)

@@ -46,24 +46,28 @@ class Steps:
 
     def __call__(self, at: Whole, of: int) -> Float:
         """Matrices (k, m, m) of the steps that begin at these `of`-ths of the period."""
+        function = _mapped(self.form.layout, self.order, len(at))
+        wide = np.asarray(function(*self.inputs(at, of)))
+        m = self.form.layout.order
+        return wide.reshape(m, -1, m).transpose(1, 0, 2)
+
+    def inputs(self, at: Whole, of: int) -> list[Any]:
+        """What `step_function` takes, side by side; all but the last two are shared."""
         # in whole numbers the phase of a high harmonic loses nothing
         turns = np.outer(np.array(self.form.harmonics, int), at) + of // 2
         phase = 2.0 * np.pi / of * (turns % of - of // 2)
-        function = _mapped(self.form.layout, self.order, len(at))
-        wide = np.asarray(function(*self._shared, np.cos(phase), np.sin(phase)))
-        m = self.form.layout.order
-        return wide.reshape(m, -1, m).transpose(1, 0, 2)
+        return [*self._shared, np.cos(phase), np.sin(phase)]
 
 
 @lru_cache(maxsize=256)
 def _mapped(layout: Layout, order: int, count: int) -> Any:
     """`count` steps side by side; only the phases differ."""
     shared = 4 if layout.damped else 3
-    return _step(layout, order).map("steps", "serial", count, list(range(shared)), [])
+    return step_function(layout, order).map("steps", "serial", count, list(range(shared)), [])
 
 
 @lru_cache(maxsize=64)
-def _step(layout: Layout, order: int) -> Any:
+def step_function(layout: Layout, order: int) -> Any:
     """A step from the identity, in units of time in which its length is `h`."""
     n, m = layout.n, layout.order
     pulsating = 2 + len(layout.stiffness) + len(layout.damping)

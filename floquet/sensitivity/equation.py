@@ -92,7 +92,8 @@ def sensitivities(equation: HillEquation) -> Sensitivities:
     Parameters
     ----------
     equation : HillEquation
-        `eta` may be a matrix: then T comes from the multipliers, and there is no z.
+        `eta` may be a matrix: then T comes from the multipliers, and there is no z. For a
+        `PeriodicEquation` see `general_sensitivities`.
 
     Returns
     -------
