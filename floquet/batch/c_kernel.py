@@ -1,5 +1,6 @@
 """`kernel.c` built with the machine's C compiler, where there is one; never required."""
 
+import atexit
 import ctypes
 import hashlib
 import math
@@ -241,9 +242,9 @@ def _folder() -> Path:
         folder = (Path(home) if home else Path.home() / ".cache") / "floquet-crosscheck"
         folder.mkdir(mode=0o700, parents=True, exist_ok=True)
     except (OSError, RuntimeError):  # read-only, or no home at all
-        return Path(_while_running().name)
+        return _while_running()
     own = os.access(folder, os.W_OK) and _is_own(folder)
-    return folder if own else Path(_while_running().name)
+    return folder if own else _while_running()
 
 
 def _is_own(path: Path) -> bool:
@@ -256,9 +257,11 @@ def _is_own(path: Path) -> bool:
 
 
 @cache
-def _while_running() -> "tempfile.TemporaryDirectory[str]":
-    """A place for this process alone, where nothing can be kept."""
-    return tempfile.TemporaryDirectory(prefix="floquet-crosscheck-")
+def _while_running() -> Path:
+    """A place for this process alone, gone when it ends."""
+    folder = tempfile.mkdtemp(prefix="floquet-crosscheck-")
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    return Path(folder)
 
 
 def _cpu() -> str:
