@@ -102,11 +102,11 @@ class Cell:
 
 R = TypeVar("R", bound=PrintedRow)
 S = TypeVar("S")
-O = TypeVar("O", bound=RowOutcome)  # noqa: E741
+Out = TypeVar("Out", bound=RowOutcome)
 
 
 @dataclass(frozen=True)
-class Rendering(Generic[O]):
+class Rendering(Generic[Out]):
     """How outcomes look.
 
     Attributes
@@ -125,11 +125,11 @@ class Rendering(Generic[O]):
     """
 
     columns: tuple[Column, ...]
-    cells: Callable[[O], tuple[Cell, ...]]
-    record: Callable[[O], dict[str, Any]]
+    cells: Callable[[Out], tuple[Cell, ...]]
+    record: Callable[[Out], dict[str, Any]]
     csv_header: tuple[str, ...]
-    csv_line: Callable[[O], Sequence[Any]]
-    count: Callable[[Sequence[O]], Counts]
+    csv_line: Callable[[Out], Sequence[Any]]
+    count: Callable[[Sequence[Out]], Counts]
 
 
 @dataclass(frozen=True)
@@ -155,7 +155,7 @@ class MoreTerms(Generic[R]):
 
 
 @dataclass(frozen=True)
-class Publication(Generic[R, S, O]):
+class Publication(Generic[R, S, Out]):
     """A paper with printed tables.
 
     To add one, put a module or a folder ``NAME`` into ``compare/publications``, its data beside it
@@ -200,14 +200,14 @@ class Publication(Generic[R, S, O]):
     rows: Callable[[int], tuple[R, ...]]
     errata: Callable[[], tuple[Erratum, ...]]
     solve: Callable[..., S]
-    explain: Callable[[R, S, Any, tuple[Erratum, ...]], O]
-    rendering: Rendering[O]
+    explain: Callable[[R, S, Any, tuple[Erratum, ...]], Out]
+    rendering: Rendering[Out]
     as_run: Callable[[R], Any] | None = None
     modes: int | None = None
     more_terms: MoreTerms[R] | None = None
     is_named: Callable[[R, str], bool] | None = None
 
-    def check(self, row: R, *, method: Method = "taylor", modes: int | None = None) -> O:
+    def check(self, row: R, *, method: Method = "taylor", modes: int | None = None) -> Out:
         """Solve a row by both routes and explain what is printed.
 
         Parameters

@@ -6,6 +6,8 @@ from typing import Any
 import numpy as np
 import pytest
 from flint import acb_mat, arb, ctx
+from periodic_systems import BITTANTI_COLANERI as STRONG
+from periodic_systems import VINOGRAD, ZHOU_HAGIWARA
 from scipy.linalg import expm
 from systems import SPECIAL, random_system
 
@@ -45,32 +47,6 @@ def random_general(seed: int) -> PeriodicEquation:
         K=pulsating(np.diag(rng.uniform(0.2, 4.0, n)) + dense(0.2), rng.uniform(0.1, 0.8)),
         Omega=Omega,
     )
-
-
-STRONG = PeriodicEquation(
-    K=Fourier([[0.0]], cos={1: [[10.0]]}), C=Fourier([[24.0]], sin={1: [[10.0]]}), Omega=1.0
-)
-"""x'' + (24 + 10 sin t) x' + 10 cos t x = 0 (Bittanti and Colaneri): exponents 0 and -24."""
-
-VINOGRAD = PeriodicEquation.first_order(
-    A=Fourier(
-        [[-5.5, 6.0], [-6.0, -5.5]],
-        cos={1: [[-4.5, 6.0], [6.0, 4.5]]},
-        sin={1: [[6.0, 4.5], [4.5, -6.0]]},
-    ),
-    Omega=12.0,
-)
-"""Exponents 2 and -13, though the eigenvalues of A are -1 and -10 at every time."""
-
-ZHOU_HAGIWARA = PeriodicEquation.first_order(
-    A=Fourier(
-        [[-1.5, 2.0], [-2.0, -1.5]],
-        cos={1: [[0.5, 0.0], [0.0, -0.5]]},
-        sin={1: [[0.0, -0.5], [-0.5, 0.0]]},
-    ),
-    Omega=4.0,
-)
-"""x' = [[-1 - sin^2 2t, 2 - sin 4t/2], [-2 - sin 4t/2, -1 - cos^2 2t]] x."""
 
 
 def asymmetric_rotor(c: float, k0: float = 1.0, dk: float = 0.2) -> PeriodicEquation:
