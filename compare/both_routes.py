@@ -8,6 +8,7 @@ import numpy as np
 from floquet import Monodromy, monodromy
 from floquet.witness import maker, rougher_maker
 from hill import Characteristic, Fourier, HillEquation, PeriodicEquation, characteristic
+from hill.precision import remark
 from hill.stability import Verdict
 
 Method = Literal["taylor", "cvodes"]
@@ -46,6 +47,9 @@ class CrossCheck:
         shows the opposite of what the other shows.
     verdict : {"stable", "unstable", "undecided"}
         What either route shows, where the other does not show the opposite.
+    remark : str
+        What is known to less than nine digits, or not shown, by the route that knows T better; as
+        of its results, `hill.precision`.
     """
 
     hill: Characteristic
@@ -56,6 +60,7 @@ class CrossCheck:
     shared_matrices: bool
     routes_agree: bool
     verdict: Verdict
+    remark: str
 
     @property
     def stable(self) -> bool:
@@ -70,12 +75,12 @@ class CrossCheck:
     @property
     def T(self) -> float:
         """The characteristic argument of the route that knows it better."""
-        return self.hill.T if self.hill.T_error < self.floquet.T_error else self.floquet.T
+        return _better(self.hill, self.floquet).T
 
     @property
     def T_error(self) -> float:
         """Bound on the error of `T`."""
-        return min(self.hill.T_error, self.floquet.T_error)
+        return _better(self.hill, self.floquet).T_error
 
 
 def crosscheck(
@@ -141,7 +146,10 @@ def compare_routes(
         # of coefficients that move by chance in nothing, what the others say of them
         moved, scale = np.abs(f.polynomial - r.polynomial), np.maximum(f.errors, SMALLEST)
         elements = SAFETY * np.max(moved / scale) * scale + r.data_error + h.data_error
+    better = _better(h, f)
     shown = {h.verdict, f.verdict} - {"undecided"}
+    agreed = len(shown) < 2
+    verdict: Verdict = shown.pop() if len(shown) == 1 else "undecided"
     return CrossCheck(
         hill=h,
         floquet=f,
@@ -149,9 +157,17 @@ def compare_routes(
         discretisation=float(np.max(elements)),
         matrices=0.0 if closed is other else _apart(closed, other),
         shared_matrices=closed is other,
-        routes_agree=bool(np.all(apart <= h.errors + f.errors + elements)) and len(shown) < 2,
-        verdict=shown.pop() if len(shown) == 1 else "undecided",
+        routes_agree=bool(np.all(apart <= h.errors + f.errors + elements)) and agreed,
+        verdict=verdict,
+        remark=remark(
+            better.T, better.T_error, closed.Omega, verdict, better.polynomial, better.error
+        ),
     )
+
+
+def _better(h: Characteristic, f: Monodromy) -> Characteristic | Monodromy:
+    """Who knows T better."""
+    return h if h.T_error < f.T_error else f
 
 
 def _apart(one: Any, other: Any) -> float | None:

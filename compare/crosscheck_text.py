@@ -59,6 +59,8 @@ def text(subject: Subject, x: CrossCheck, console: Console) -> None:
     first, second = summary(subject, x)
     console.print(first, style=STYLES[x.verdict], highlight=False)
     console.print(second, style="" if x.routes_agree else "bold red", highlight=False)
+    for who, remark in _remarks(x):
+        console.print(f"{who}: {remark}.", style="yellow", highlight=False)
     console.print()
     for title, words in _facts(subject):
         console.print(f"{title}: {words}", highlight=False)
@@ -94,6 +96,7 @@ def as_dict(subject: Subject, x: CrossCheck) -> dict[str, Any]:
         "verdict": x.verdict,
         "T": x.T,
         "T_error": x.T_error,
+        "remark": x.remark,
         "doubling_time": doubling_time(x.T) if x.verdict == "unstable" else None,
         "units": "dimensionless, over the system's own unit of frequency",
     }
@@ -106,7 +109,7 @@ def as_json(subject: Subject, x: CrossCheck) -> str:
 
 def markdown(subject: Subject, x: CrossCheck) -> str:
     """Two lines and a table for a report."""
-    lines = [*summary(subject, x), ""]
+    lines = [*summary(subject, x), *(f"{who}: {said}." for who, said in _remarks(x)), ""]
     lines += [f"- {title}: {words}" for title, words in _facts(subject)]
     lines += ["", "| | hill | floquet |", "| --- | ---: | ---: |"]
     lines += [f"| {name} | {left} | {right} |" for name, left, right in _compared(x)]
@@ -120,7 +123,7 @@ def as_csv(subject: Subject, x: CrossCheck) -> str:
     buffer = io.StringIO()
     writer = csv.writer(buffer, lineterminator="\n")
     writer.writerow(["quantity", "index", "hill", "floquet"])
-    for name in ("T", "T_error", "error", "verdict"):
+    for name in ("T", "T_error", "error", "verdict", "remark"):
         writer.writerow([name, "", *(_cell(getattr(r, name)) for r in (x.hill, x.floquet))])
     for k, pair in enumerate(zip(x.hill.polynomial, x.floquet.polynomial, strict=True)):
         writer.writerow(["P", k, *map(_cell, pair)])
@@ -146,6 +149,14 @@ def _facts(subject: Subject) -> list[tuple[str, str]]:
     given = ", ".join(f"{k} = {v:.9g}" for k, v in (subject.forcing | subject.values).items())
     frequencies = ", ".join(f"omega_({n}) = {_complex(w, 7)}" for n, w in subject.frequencies)
     return [("at", given), ("natural frequencies", frequencies)]
+
+
+def _remarks(x: CrossCheck) -> list[tuple[str, str]]:
+    """What is poorly known: of both together, or of one route where the other knows better."""
+    if x.remark:
+        return [("Note", x.remark)]
+    routes = (("By hill", x.hill), ("By floquet", x.floquet))
+    return [(who, r.remark) for who, r in routes if r.remark]
 
 
 def _compared(x: CrossCheck) -> list[tuple[str, str, str]]:
@@ -205,6 +216,7 @@ def _route(r: Any) -> dict[str, Any]:
         "error": r.error,
         "data_error": r.data_error,
         "verdict": r.verdict,
+        "remark": r.remark,
         "stable": r.stable,
     }
 

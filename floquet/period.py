@@ -40,6 +40,7 @@ from floquet.many import (
 )
 from floquet.result import Monodromy
 from hill import HillEquation, PeriodicEquation
+from hill.precision import remark
 
 # The terms that S U^-1 S U sums are this much larger than 1, 3 to 5 for the report's beam with 2 to
 # 12 modes, twice the growth over a period where there is one. Beyond, the whole period loses less.
@@ -161,6 +162,14 @@ def _of_equation(equation: HillEquation | PeriodicEquation, method: str) -> Mono
         reversibility_defect=_reversibility(_undamp(whole, eta, period)),
         method=method,
         half_period=runs.half,
+        remark=remark(
+            growth.T,
+            growth.T_error,
+            equation.Omega,
+            growth.verdict,
+            found.p,
+            float(np.max(found.errors)),
+        ),
     )
 
 

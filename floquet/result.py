@@ -53,6 +53,9 @@ class Monodromy:
         The CasADi method.
     half_period : bool
         Whether reversibility was used.
+    remark : str
+        What of all this is known to less than nine digits, or not shown, in a sentence
+        (`hill.precision`); empty where nothing is.
     """
 
     matrix: Float
@@ -71,6 +74,7 @@ class Monodromy:
     reversibility_defect: float
     method: str
     half_period: bool
+    remark: str
 
     @property
     def error(self) -> float:

@@ -14,10 +14,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hill.arrays import EPS, Float
+from hill.arrays import EPS, Bool, Float
 from hill.determinant.converged import characteristic
 from hill.determinant.folding import BlockBatch, samples
 from hill.equation import HillEquation
+from hill.precision import poor_P
 
 CHUNK = 1152
 """Matrix elements side by side: enough to hide Python's share, few enough for the cache."""
@@ -61,6 +62,11 @@ class Polynomials:
 
     coefficients: Float
     errors: Float
+
+    @property
+    def poor(self) -> Bool:
+        """Whose coefficients are known to less than nine digits, (k,): `hill.precision`."""
+        return poor_P(self.coefficients, self.errors)
 
 
 def polynomials(equations: Sequence[HillEquation]) -> Polynomials:

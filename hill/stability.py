@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from hill.arrays import EPS, Bool, Complex, Float, frozen
+from hill.precision import poor_T
 
 Verdict = Literal["stable", "unstable", "undecided"]
 
@@ -51,6 +52,8 @@ class Stabilities:
         Characteristic argument (7.1.1), and a bound on its error.
     verdict : (k,) ndarray of str
         "stable", "unstable" or "undecided".
+    poor : (k,) bool ndarray
+        Whether T is known to less than nine digits: `hill.precision`.
     """
 
     z: Complex
@@ -58,6 +61,7 @@ class Stabilities:
     T: Float
     T_error: Float
     verdict: NDArray[np.str_]
+    poor: Bool
 
 
 def stability_of(polynomial: Float, error: ArrayLike, Omega: float, eta: float) -> Stability:
@@ -83,7 +87,7 @@ def stabilities(polynomials: Float, errors: Float, Omega: Float, eta: Float) -> 
         _stabilities(*(x[start : start + CHUNK] for x in (polynomials, errors, Omega, eta)))
         for start in range(0, max(len(polynomials), 1), CHUNK)
     ]
-    fields = ("z", "radius", "T", "T_error", "verdict")
+    fields = ("z", "radius", "T", "T_error", "verdict", "poor")
     return Stabilities(
         *(np.concatenate([getattr(part, name) for part in parts]) for name in fields)
     )
@@ -141,7 +145,7 @@ def _judged(
     T = np.where(still, 0.0, T)
     T_error = np.where(still, rounding, np.maximum(high - T, T - low))
     verdict = np.where(stable, "stable", np.where(unstable, "unstable", "undecided"))
-    return Stabilities(z, radius, T, T_error, verdict)
+    return Stabilities(z, radius, T, T_error, verdict, poor_T(T, T_error, Omega))
 
 
 def arguments(polynomials: Float, Omega: Float | float, eta: Float | float = 0.0) -> Float:

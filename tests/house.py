@@ -40,6 +40,7 @@ SHARED = {
     "Vehicle",
     "checks",
     "parameter_values",
+    "precision",
     "varied",
 }
 
@@ -53,6 +54,7 @@ DATA_MODULES = {
     "hill.errors",
     "hill.periodic",
     "hill.periodic_system",
+    "hill.precision",
     "hill.system",
     "hill.toml",
     "hill.vehicle.file",

@@ -165,7 +165,7 @@ def test_a_bound_inflated_in_silence_is_counted(known: Any) -> None:
     silent = measured(polynomial=close, errors=np.array([0.0, 1e-9]), T_error=1e-9)
     assert silent["P"].inflated
     assert silent["P"].slack == pytest.approx(1e-9 / (2.0**-52 * abs(float(P))), rel=0.1)
-    said = measured(polynomial=close, errors=np.array([0.0, 1e-5]), verdict="undecided")
+    said = measured(polynomial=close, errors=np.array([0.0, 1e-5]), poor=frozenset("PT"))
     assert said["P"].slack > silent["P"].slack
     assert not said["P"].inflated
     assert not said["T"].inflated

@@ -26,13 +26,13 @@ NOTHING = 1e-100
 # Reported over true: beyond it a bound says nothing any more.
 INFLATED = 1e6
 
-# An error above this share of the number itself is a word that the number is poor.
-POOR = 1e-6
-
 
 @dataclass(frozen=True, eq=False)
 class Answer:
-    """One route's word on one system; `refused` or `failed` say why there is none."""
+    """One route's word on one system; `refused` or `failed` say why there is none.
+
+    `poor` are the numbers that the result itself says are poorly known, "P" and "T".
+    """
 
     polynomial: NDArray[Any] | None = None
     errors: NDArray[Any] | None = None
@@ -40,6 +40,7 @@ class Answer:
     T_error: float = 0.0
     verdict: str = "undecided"
     others: tuple[Any, ...] = ()
+    poor: frozenset[str] = frozenset()
     refused: str = ""
     failed: str = ""
     warned: str = ""
@@ -56,8 +57,8 @@ class Measured:
     slack : float
         The reported error over the true one, which counts as an ulp of the result at least.
     told : bool
-        Whether the answer itself says that the number is poor: the reported error is above `POOR`
-        of it, or the verdict is undecided.
+        Whether the answer itself says that the number is poorly known, or its verdict is
+        "undecided".
     """
 
     ratio: float
@@ -187,7 +188,7 @@ def _judge_P(
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         ratio = np.where(reported > 0.0, true / reported, np.where(true > 0.0, np.inf, 0.0))
         slack = float(np.max(reported[1:])) / float(np.max(known_errors[1:]))
-    told = bool(np.max(reported[1:]) > POOR * size)
+    told = "P" in answer.poor
     if beyond:
         k = max(beyond, key=lambda k: ratio[k])
         wrong["P"] = f"p_{k} off by {true[k]:.3g}, reported {reported[k]:.3g}: {ratio[k]:.3g} times"
@@ -212,7 +213,7 @@ def _judge_T(answer: Answer, known: Truth, shrink: float, wrong: dict[str, str])
         return None
     e = known.equation
     size = max(e.Omega / np.pi, abs(answer.T), float(np.max(np.abs(e.eta))))
-    told = bool(reported > POOR * size) or answer.verdict == "undecided"
+    told = "T" in answer.poor or answer.verdict == "undecided"
     return one_number("T", answer.T, growth.T, reported, size, told, wrong)
 
 

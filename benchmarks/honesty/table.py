@@ -8,14 +8,14 @@ from typing import Any
 import numpy as np
 from rich.table import Table
 
-from benchmarks.honesty.judge import INFLATED, POOR, Judged
+from benchmarks.honesty.judge import INFLATED, Judged
 
-LEGEND = f"""\
+LEGEND = """\
 beyond: systems that the arbiter gives up. median, 99%, most: of the true error
 over the reported one; above 1 is a violation. worth: the median of the reported
 error over the true one, which counts as an ulp at least. >1e6: bounds so many
-times too large; silent: those of them below {POOR:.0e} of their number, with a
-verdict, so that nothing says so. unjudged: the arbiter's ball is too wide."""
+times too large; silent: those of them with a verdict, where the result does not
+say that the number is poorly known. unjudged: the arbiter's ball is too wide."""
 
 
 @dataclass(frozen=True)

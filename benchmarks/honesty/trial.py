@@ -107,13 +107,18 @@ def _sweep(equations: Sequence[HillEquation]) -> Any:
 def _characteristic(e: HillEquation) -> Answer:
     c = characteristic(e)
     errors = np.append(0.0, np.full(e.n, c.error))
-    return Answer(c.polynomial, errors, c.T, c.T_error, c.verdict, (c.z,))
+    return Answer(c.polynomial, errors, c.T, c.T_error, c.verdict, (c.z,), _named(c.remark))
 
 
 def _monodromy(e: HillEquation, method: Any) -> Answer:
     m = monodromy(e, method=method)
     others = (m.z, m.multipliers, m.matrix, m.matrix_error)
-    return Answer(m.polynomial, m.errors, m.T, m.T_error, m.verdict, others)
+    return Answer(m.polynomial, m.errors, m.T, m.T_error, m.verdict, others, _named(m.remark))
+
+
+def _named(remark: str) -> frozenset[str]:
+    """Which numbers a result's remark says are poorly known."""
+    return frozenset(name for name in NUMBERS if f"{name} is known to" in remark)
 
 
 def _batch(run: Callable[[Sequence[HillEquation]], Any], es: list[HillEquation]) -> list[Answer]:
@@ -129,6 +134,7 @@ def _batch(run: Callable[[Sequence[HillEquation]], Any], es: list[HillEquation])
             Answer(
                 found.coefficients[i], errors[i], float(judgement.T[i]),
                 float(judgement.T_error[i]), str(judgement.verdict[i]), (judgement.z[i],),
+                frozenset(n for n, p in (("P", found.poor[i]), ("T", judgement.poor[i])) if p),
             )
             for i in range(len(some))
         ]  # fmt: skip

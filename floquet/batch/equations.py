@@ -12,13 +12,14 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from floquet.accuracy import moved_by_data
-from floquet.arrays import EPS, Float
+from floquet.arrays import EPS, Bool, Float
 from floquet.batch import c_kernel
 from floquet.batch.balance import balanced
 from floquet.batch.general import general_polynomials
 from floquet.batch.numpy_kernel import Found, March, Points, by_numpy
 from floquet.period import MAX_TERM_GROWTH, monodromy
 from hill import HillEquation, PeriodicEquation
+from hill.precision import poor_P
 
 Kernel = Literal["auto", "compiled", "numpy"]
 KERNELS = ("auto", "compiled", "numpy")
@@ -60,6 +61,11 @@ class Polynomials:
 
     coefficients: Float
     errors: Float
+
+    @property
+    def poor(self) -> Bool:
+        """Whose coefficients are known to less than nine digits, (k,): `hill.precision`."""
+        return poor_P(self.coefficients, self.errors)
 
 
 @dataclass(frozen=True, eq=False)

@@ -23,6 +23,7 @@ from floquet.integrate.parts_taylor import PartsTaylor
 from floquet.products import chain
 from floquet.result import Monodromy
 from hill import PeriodicEquation
+from hill.precision import remark
 
 # Steps of the run and of its check in one part: orders 24 and 29 need steps in about that ratio.
 STEPS, CHECK_STEPS = 3, 2
@@ -96,6 +97,14 @@ def general_monodromy(
         reversibility_defect=float("nan"),
         method=method,
         half_period=False,
+        remark=remark(
+            growth.T,
+            growth.T_error,
+            equation.Omega,
+            growth.verdict,
+            found.p,
+            float(np.max(found.errors)),
+        ),
     )
 
 

@@ -13,6 +13,7 @@ from hill.determinant.roots import WELL_KNOWN, discs, improved, larger_of_pair, 
 from hill.equation import HillEquation
 from hill.multipliers import Multipliers, in_discs, multipliers
 from hill.periodic import PeriodicEquation
+from hill.precision import remark
 from hill.stability import Verdict, stability_of
 
 Form = Literal["converged", "residues", "samples"]
@@ -56,6 +57,9 @@ class Characteristic:
         `PeriodicEquation` in the one determinant there is.
     form : {"converged", "residues", "samples"}
         How `polynomial` was obtained.
+    remark : str
+        What of all this is known to less than nine digits, or not shown, in a sentence
+        (`hill.precision`); empty where nothing is.
     """
 
     polynomial: Float
@@ -70,6 +74,7 @@ class Characteristic:
     verdict: Verdict
     M: tuple[int, ...]
     form: Form
+    remark: str
 
     @property
     def error(self) -> float:
@@ -120,6 +125,7 @@ def of_z(
         verdict=s.verdict,
         M=M,
         form=form,
+        remark=remark(s.T, s.T_error, equation.Omega, s.verdict, polynomial, error),
     )
 
 
@@ -145,6 +151,7 @@ def of_multipliers(equation: HillEquation | PeriodicEquation) -> Characteristic:
         verdict=m.verdict,
         M=found.M,
         form="converged",
+        remark=remark(m.T, m.T_error, equation.Omega, m.verdict, c, float(np.max(errors))),
     )
 
 
