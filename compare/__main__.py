@@ -22,6 +22,10 @@ COMMANDS: tuple[str, ...] = (
 )
 """Subcommands, each a module of `compare.commands` with SUMMARY, EPILOG, configure and run."""
 
+# Thousands of systems of a hundred equations each: on two busy cores two threads of linear algebra
+# take seven times as long as one. What the environment says already is left.
+MANY_SMALL = ("vehicle",)
+
 INTERRUPTED, ENDED, READER_GONE = 130, 143, 141
 """Exit statuses of a shell's convention: 128 and the number of the signal."""
 
@@ -79,6 +83,9 @@ def _run(words: list[str]) -> int:
         return 2
     name = words.pop(0) if words and words[0] in COMMANDS else "rows"
     program = "verify" if name == "rows" else f"verify {name}"
+    if name in MANY_SMALL:
+        for library in ("OPENBLAS", "OMP", "MKL"):
+            os.environ.setdefault(f"{library}_NUM_THREADS", "1")
     command: Any = import_module(f"compare.commands.{name}")
     options = _parser(command, program, name).parse_args(words)
     from compare.jobs.workers import WorkersError

@@ -130,6 +130,39 @@ def test_the_critical_pulsation(resonance: Resonance, start: float) -> None:
     assert verdict(opened.Omega, found * 0.999, eta) == "stable"
 
 
+def test_the_critical_pulsation_of_two_that_decay_unlike() -> None:
+    """A sensor's rate damps the rotation more than the mode: T is not largest in the middle.
+
+    On either side of the critical pulsation the growth over all of Omega is looked at one by one.
+    """
+    v = Vehicle(
+        sections=(Section(1.0, 1.0, 1.0),),
+        thrust=Thrust(12.0),
+        sensors=(Sensor(0.5, 0.5, 0.02),),
+        damping=Damping(0.003),
+        units="none",  # type: ignore[arg-type]
+        modes=3,
+    )
+    alone, resonance = steady(v.equation(1.0, 0.0)), Resonance(1, 0)
+
+    def at(gamma: float) -> Near:
+        return Near(lambda Omega: v.equation(Omega, gamma), resonance, alone)
+
+    a, b = at(0.1).rates
+    assert max(a, b) > 1.5 * min(a, b) > 0.0
+    band = at(0.1).band()
+    found = critical_gamma(at, band, 0.1)
+    assert found is not None
+    for share, opens in ((0.999, False), (1.001, True)):
+        gamma = share * found
+        centre = at(gamma).Omega + (band.middle - band.resonance.Omega(alone.frequencies + 0j)) * (
+            (gamma / 0.1) ** 2
+        )
+        grid = centre + (a + b) * np.linspace(-1.0, 1.0, 401)
+        most = max(at(gamma).at(float(x)).T for x in grid)
+        assert (most > 0.0) == opens
+
+
 def test_without_damping_it_opens_at_once() -> None:
     at = near(Resonance(1, 0), 0.1, 0.0)
     assert critical_gamma(lambda _: at, at.band(), 0.1) == 0.0

@@ -3,6 +3,7 @@
 import math
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -230,6 +231,16 @@ def test_two_hundred_stations_and_twenty_modes() -> None:
     assert time.process_time() - began < 10.0
     assert found.defect < 1e-11
     assert_like_elements(v, found, 1e-3, 200)
+
+
+def test_as_many_modes_as_there_may_be() -> None:
+    """Sixty, and fewer of them, which are found together."""
+    v = Vehicle(sections=(Section(1.0, 1.0, 1.0),), units="none", modes=60)  # type: ignore[arg-type]
+    every = np.sqrt(2.0 * np.pi * v.frequencies())
+    # cos x cosh x = 1, beyond the first few (n + 1/2) pi to rounding
+    assert every[10:] == pytest.approx((np.arange(11, 61) + 0.5) * np.pi, rel=1e-12)
+    few = replace(v, modes=58)
+    assert few.frequencies() == pytest.approx(v.frequencies()[:58], rel=1e-14)
 
 
 def test_too_uneven() -> None:

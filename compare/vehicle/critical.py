@@ -41,11 +41,11 @@ def critical_gamma(near: Callable[[float], Near], band: Band, gamma: float) -> f
     """
     power = 2 * band.resonance.order
     before_u, before = 0.0, near(gamma).excess_at_rest
-    at_rest = before
     if before >= 0.0:
         return 0.0
     # the excess is nearly linear in u = gamma^(2 k)
-    u, value = abs(gamma) ** power, band.excess
+    u, value, middle = abs(gamma) ** power, band.excess, band.middle
+    reach = sum(near(gamma).rates) / band.resonance.order
     for _ in range(MAX_STEPS):
         slope = (value - before) / (u - before_u)
         if not slope > 0.0:
@@ -58,10 +58,9 @@ def critical_gamma(near: Callable[[float], Near], band: Band, gamma: float) -> f
         before_u, before = u, value
         u = following
         at = near(float(u ** (1.0 / power)))
-        # the middle moves like gamma^2; the excess falls by a^2 over half the damped width
-        moved = (band.Omega - at.Omega) * (u ** (2.0 / power) / gamma**2)
-        half = max(2.0 * abs(at_rest) ** 0.5 / band.resonance.order, 1e-4 * at.Omega)
-        value = at.most(at.Omega + moved, half)
+        # the middle moves like gamma^2; the excess falls by a b over a width of a + b
+        moved = (middle - at.Omega) * (u / before_u) ** (2.0 / power)
+        value, middle = at.most(at.Omega + moved, max(reach, 1e-4 * at.Omega))
     return float(u ** (1.0 / power))
 
 

@@ -10,21 +10,16 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from numpy.polynomial import chebyshev
-from numpy.typing import NDArray
 from scipy.optimize import brentq
 
+from compare.vehicle.fits import UNDAMPED, Fits, Window, excess
 from hill.averaging import Resonance
 from hill.errors import Refused
 from hill.oscillations.coupling import Coupled, Guess
 from hill.oscillations.pair import Pair, pair
 from hill.oscillations.steady import Steady
 
-Complex = NDArray[np.complexfloating[Any, Any]]
 Equation = Callable[[float], Any]
-
-# Values of Omega across a band. What they leave of an edge is corrected at the edge.
-NODES = 7
 
 # Reach of the window over the half width of the band that it was made for.
 REACH = 1.3
@@ -34,9 +29,6 @@ MAX_MOVES = 6
 
 # Shift of a band's middle, over its resonance: beyond, it is another's.
 MAX_SHIFT = 0.3
-
-# Damping, over Omega, that is none: rounding of an undamped exponent.
-UNDAMPED = 1e-10
 
 # An edge that is corrected by more, over half the window, is solved for without polynomials.
 MAX_CORRECTION = 0.02
@@ -67,6 +59,8 @@ class Band:
         An estimate.
     excess : float
         What becomes 0 where the band closes; linear in a power of the pulsation.
+    middle : float
+        Omega where the excess is that.
     """
 
     resonance: Resonance
@@ -76,6 +70,7 @@ class Band:
     edges: tuple[float, float] | None
     edge_error: float
     excess: float
+    middle: float
 
     @property
     def width(self) -> float:
@@ -107,10 +102,16 @@ class Near:
         return self.resonance.Omega(self.alone.frequencies + 0j)
 
     @property
-    def excess_at_rest(self) -> float:
-        """`excess` at the resonance without pulsation."""
+    def rates(self) -> tuple[float, float]:
+        """What the two oscillations decay by without pulsation."""
         both = [self.alone.oscillations[k] for k in (self.resonance.i, self.resonance.j)]
         a, b = (-float(self.alone.exponents[k].real) for k in both)
+        return a, b
+
+    @property
+    def excess_at_rest(self) -> float:
+        """`excess` at the resonance without pulsation."""
+        a, b = self.rates
         return -a * b if min(a, b) > UNDAMPED * self.Omega else 0.0
 
     def guess(self) -> Guess:
@@ -133,17 +134,20 @@ class Near:
         """
         fits, peak = self._top(guess or self.guess())
         own, window = self.at(peak), fits.window
-        over = excess(own, peak)
+        over, middle = excess(own, peak), peak
         edges, error = None, 0.0
-        if over > 0.0:
+        if over <= 0.0:
+            middle = fits.middle()
+            over = excess(self.at(middle), middle)
+        else:
             (low, off), (high, other) = (
                 self._edge(fits, peak, window.centre + side * window.half) for side in (-1.0, 1.0)
             )
             edges, error = (low, high), max(off, other)
-        return Band(self.resonance, peak, own.T, 2.0 * own.error, edges, error, over)
+        return Band(self.resonance, peak, own.T, 2.0 * own.error, edges, error, over, middle)
 
-    def most(self, centre: float, half: float) -> float:
-        """The largest excess, of a band about so wide whose middle is near there.
+    def most(self, centre: float, half: float) -> tuple[float, float]:
+        """The largest excess, of a band about so wide whose middle is near there, and its Omega.
 
         By parabolas through three values, the second about the first one's top.
 
@@ -162,19 +166,20 @@ class Near:
             if abs(move) > 3.0:
                 return self._most_of_window()
             centre = float(at[1] + reach * move)
-        return mid - 0.125 * (high - low) ** 2 / bend
+        return mid - 0.125 * (high - low) ** 2 / bend, centre
 
-    def _most_of_window(self) -> float:
-        _, peak = self._top(self.guess())
-        return excess(self.at(peak), peak)
+    def _most_of_window(self) -> tuple[float, float]:
+        fits, _ = self._top(self.guess())
+        middle = fits.middle()
+        return excess(self.at(middle), middle), middle
 
-    def _top(self, guess: Guess) -> tuple["_Fits", float]:
+    def _top(self, guess: Guess) -> tuple[Fits, float]:
         """Polynomials across the band, and where they grow fastest."""
         window = self._window(guess)
-        fits = _Fits.of(window, [self.at(x) for x in window.nodes])
+        fits = Fits.of(window, [self.at(x) for x in window.nodes])
         return fits, fits.peak()
 
-    def _window(self, guess: Guess) -> "_Window":
+    def _window(self, guess: Guess) -> Window:
         """About the middle of the band, as wide as it."""
         k, centre = self.resonance.order, self.Omega
         half = max(2.0 * abs(guess.coupling) ** 0.5 / k, LEAST * centre)
@@ -193,9 +198,9 @@ class Near:
                 raise Refused(f"{self.resonance.name}: has no band beside Omega = {self.Omega:g}")
             if settled:
                 break
-        return _Window(centre, REACH * half)
+        return Window(centre, REACH * half)
 
-    def _edge(self, fits: "_Fits", peak: float, end: float) -> tuple[float, float]:
+    def _edge(self, fits: Fits, peak: float, end: float) -> tuple[float, float]:
         """Where growth ends between its peak and the window's end, and how far that may be off."""
         # a band that is hardly open may be closed for the polynomials, or beyond their window
         if fits.excess(peak) <= 0.0 or fits.excess(end) > 0.0:
@@ -217,67 +222,3 @@ class Near:
                 return float(brentq(lambda x: excess(self.at(x), x), peak, end, rtol=0.1 * SOLVED))
             end = max(end + (end - peak), LEAST * peak)
         raise Refused(f"{self.resonance.name}: has no edge beside Omega = {peak:g}")
-
-
-def excess(pair: Pair, Omega: float) -> float:
-    """Above 0 where one of two exponents grows, smooth through 0: of mean -a and square p + i q.
-
-    a < Re sqrt(p + i q) is q^2 > 4 a^2 (a^2 - p).
-    """
-    a, p, q = -pair.mean.real, pair.square.real, pair.square.imag
-    if a <= UNDAMPED * Omega:
-        return p if a >= -UNDAMPED * Omega else max(p, 0.0) + a * a
-    return p - a * a + (0.5 * q / a) ** 2
-
-
-@dataclass(frozen=True)
-class _Window:
-    centre: float
-    half: float
-
-    @property
-    def nodes(self) -> list[float]:
-        """Chebyshev's."""
-        angles = np.pi * (np.arange(NODES) + 0.5) / NODES
-        return [float(self.centre + self.half * x) for x in np.cos(angles)]
-
-
-@dataclass(frozen=True, eq=False)
-class _Fits:
-    """Polynomials through mean and square over a window."""
-
-    window: _Window
-    mean: Complex
-    square: Complex
-
-    @classmethod
-    def of(cls, window: _Window, pairs: list[Pair]) -> "_Fits":
-        """Through the pairs at the window's nodes."""
-        t = (np.array(window.nodes) - window.centre) / window.half
-
-        def through(values: list[complex]) -> Complex:
-            found = np.array(values)
-            real, imag = (chebyshev.chebfit(t, x, NODES - 1) for x in (found.real, found.imag))
-            return np.asarray(real + 1j * imag)
-
-        return cls(window, through([p.mean for p in pairs]), through([p.square for p in pairs]))
-
-    def at(self, Omega: float) -> Pair:
-        """Mean and square there."""
-        t = (Omega - self.window.centre) / self.window.half
-        mean, square = (complex(chebyshev.chebval(t, c)) for c in (self.mean, self.square))
-        return Pair(mean, square, 0.0, 0.0)
-
-    def excess(self, Omega: float) -> float:
-        """As `excess`, of the polynomials."""
-        return excess(self.at(Omega), Omega)
-
-    def peak(self) -> float:
-        """Where it grows fastest; where the square is largest, if nothing grows."""
-        low, high = self.window.centre - self.window.half, self.window.centre + self.window.half
-        for _ in range(3):
-            grid = np.linspace(low, high, 41)
-            values = [self.at(float(x)) for x in grid]
-            most = max(range(41), key=lambda k: (values[k].T, values[k].square.real))
-            low, high = grid[max(most - 1, 0)], grid[min(most + 1, 40)]
-        return float(grid[most])

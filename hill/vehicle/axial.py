@@ -70,8 +70,7 @@ def axial(mesh: Mesh, ends: tuple[str, str], thrust: int, s: complex) -> Axial:
     """
     panels = _panels(mesh, s)
     coefficients = _series(mesh, s, panels)
-    sign = (-1.0) ** np.arange(TERMS)
-    start, end = np.einsum("n,enij->eij", sign, coefficients), coefficients.sum(axis=1)
+    start, end = _at_start(coefficients), coefficients.sum(axis=1)
     joints = thrust * panels
     left, right = _swept(mesh, ends, start, end, joints, panels)
     # what leaves the thrust on either side is met there: P jumps by 1, U does not
@@ -86,7 +85,7 @@ def axial(mesh: Mesh, ends: tuple[str, str], thrust: int, s: complex) -> Axial:
     states = np.concatenate([before, after])
     middle = np.einsum("eij,ej->ei", _inverse(start), states)
     powers = NODES ** np.arange(TERMS)[:, np.newaxis]
-    force = np.einsum("enj,ej,np->ep", coefficients[:, :, 0], middle, powers)
+    force = (coefficients[:, :, 0] @ middle[..., np.newaxis])[..., 0] @ powers
     return Axial(force.reshape(mesh.elements, -1), panels, float(size / abs(cancels)))
 
 
@@ -145,6 +144,11 @@ def _series(mesh: Mesh, s: complex, panels: int) -> Complex:
     return np.ascontiguousarray(np.swapaxes(both, 0, 1))
 
 
+def _at_start(coefficients: Complex) -> Complex:
+    """(P, U) at t = -1 of each panel, (panels, 2, 2)."""
+    return np.asarray(coefficients[:, ::2].sum(axis=1) - coefficients[:, 1::2].sum(axis=1))
+
+
 def _inverse(matrix: Complex) -> Complex:
     """Of (..., 2, 2) matrices of determinant 1."""
     out = np.empty_like(matrix)
@@ -186,7 +190,7 @@ def _chain(mesh: Mesh, ends: tuple[str, str], s: float) -> Complex:
     """(P, U) at the nodes behind their masses, from the nose's condition."""
     panels = _panels(mesh, s)
     coefficients = _series(mesh, s, panels)
-    start = np.einsum("n,enij->eij", (-1.0) ** np.arange(TERMS), coefficients)
+    start = _at_start(coefficients)
     return _swept(mesh, ends, start, coefficients.sum(axis=1), len(start), panels)[0]
 
 

@@ -12,7 +12,7 @@ from hill.vehicle.modes import Modes, modes
 from hill.vehicle.parts import Damping, Thrust
 from hill.vehicle.shapes import PSI, Shapes, Y
 from hill.vehicle.units import Units
-from hill.vehicle.vehicle import Vehicle
+from hill.vehicle.vehicle import MOST_MODES, Vehicle
 
 # Rounding of an element of a matrix, over the largest; measured against the report's closed forms
 # and against other meshes of the same vehicles.
@@ -20,7 +20,8 @@ MATRIX_ERROR = 64.0 * EPS
 
 
 TOGETHER = 8
-"""Modes are found so many at a time: those of N, N + 2, ... are the same ones, found once."""
+"""Modes are found so many, or twice, four times ... so many, at a time: those of N, N + 2, ... are
+the same ones, found once."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,9 +125,12 @@ def structure(vehicle: Vehicle) -> Structure:
 @lru_cache(maxsize=32)
 def _structure(vehicle: Vehicle) -> Structure:
     number = vehicle.modes
-    if number % TOGETHER:
-        more = replace(vehicle, modes=number + TOGETHER - number % TOGETHER)
-        return _structure(more).of_the_lowest(number)
+    together = TOGETHER
+    while together < number:
+        together *= 2
+    together = min(together, MOST_MODES)
+    if number < together:
+        return _structure(replace(vehicle, modes=together)).of_the_lowest(number)
     found = modes(vehicle, number)
     node = found.mesh.node(vehicle.thrust_station / vehicle.length)
     steady = axial(found.mesh, vehicle.ends, node, 0.0)

@@ -75,9 +75,16 @@ class Shapes:
     def slope_products(self, force: Float, panels: int = 1) -> Float:
         """Integrals of P y_i' y_j', for P at the points of every element, (shapes, shapes)."""
         t, weight = self.points(panels)
-        at = self.values(t)
-        slope = at[:, :, PSI] + at[:, :, Q] * _compliance(self.mesh.shear, t)
+        slope = self._slope if panels == 1 else self._slopes(t, self.values(t))
         return _inner(slope, slope, weight * self.mesh.half[:, np.newaxis] * force)
+
+    @cached_property
+    def _slope(self) -> Float:
+        return self._slopes(self.points()[0], self._at_points[0])
+
+    def _slopes(self, t: Float, at: Float) -> Float:
+        """Y' at t of every element, of the values there, (shapes, elements, points)."""
+        return np.asarray(at[:, :, PSI] + at[:, :, Q] * _compliance(self.mesh.shear, t))
 
     @cached_property
     def nodes(self) -> Float:
