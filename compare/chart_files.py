@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from compare.charts.identity import type_name, value_fingerprint
+from compare.charts.identity import known_values, type_name
 from compare.charts.result import Chart
 from compare.edges.instabilities import Instability
-from compare.provenance import as_line, provenance
+from compare.provenance import as_comment, as_line, provenance
 from hill.system import FORCING
 
 
@@ -20,7 +20,7 @@ def about(chart: Chart) -> dict[str, Any]:
     return {
         "system": type_name(chart.system),
         "parameters": {k: v for k, v in chart.scenario.fixed.items() if k not in FORCING},
-        "values": _values(chart.system),
+        "values": known_values(chart.system),
         "forcing": dict(chart.scenario.forcing),
         "axes": [[a.name, a.low, a.high, a.count] for a in chart.axes],
         "route": chart.route,
@@ -59,7 +59,7 @@ def npz(chart: Chart) -> bytes:
 def as_csv(chart: Chart) -> bytes:
     """A line of provenance behind "# ", then one a point: the axes, T, its error, the verdict."""
     text = io.StringIO()
-    text.write(f"# {as_line(about(chart))}\n")
+    text.write(as_comment(about(chart)))
     names = [axis.name for axis in chart.axes]
     csv.writer(text, lineterminator="\n").writerow([*names, "T", "T_error", "verdict"])
     mesh = np.meshgrid(*(axis.points for axis in chart.axes), indexing="ij")
@@ -90,7 +90,7 @@ def as_json(chart: Chart, found: Sequence[Instability] = ()) -> bytes:
 def tongues_csv(chart: Chart, found: Sequence[Instability], other: str) -> bytes:
     """Provenance; one line for each tongue and value of the other parameter: edges, their error."""
     text = io.StringIO()
-    text.write(f"# {as_line(about(chart) | {'tongues': [_summary(i) for i in found]})}\n")
+    text.write(as_comment(about(chart) | {"tongues": [_summary(i) for i in found]}))
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(["resonance", "type", "order", other, "lower", "upper", "error"])
     for i in found:
@@ -121,14 +121,6 @@ def _summary(i: Instability) -> dict[str, Any]:
 def _tongue(i: Instability) -> dict[str, Any]:
     edges = {name: getattr(i.tongue, name).tolist() for name in ("y", "lower", "upper")}
     return _summary(i) | {"edges": edges | {"error": _plain(i.edge_error)}}
-
-
-def _values(system: Any) -> str | None:
-    """A name for all that the system holds, matrices too; none where two cannot be told apart."""
-    try:
-        return value_fingerprint(system)
-    except ValueError:
-        return None
 
 
 def _finite(value: float) -> float | None:

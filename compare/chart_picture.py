@@ -8,9 +8,11 @@ from typing import Any
 
 import numpy as np
 
+from compare.chart_files import about
 from compare.charts.result import Chart
 from compare.edges.curves import Curve
 from compare.edges.tongue import Tongue
+from compare.provenance import picture_metadata
 from hill.averaging import Resonance
 
 STYLE: Any = {
@@ -108,7 +110,7 @@ def picture(
         axes.set_ylabel(symbol(y.name))
         axes.set_title(_title(chart, title), fontsize=8, loc="left")
         buffer = io.BytesIO()
-        metadata = {"Date": None} if kind == "svg" else {"Software": None}
+        metadata = picture_metadata(about(chart), kind)
         figure.savefig(buffer, format=kind, dpi=200, metadata=metadata)
     return buffer.getvalue()
 

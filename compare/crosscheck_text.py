@@ -13,7 +13,8 @@ from rich import box
 from rich.console import Console
 from rich.table import Table
 
-from compare.both_routes import CrossCheck
+from compare.both_routes import CrossCheck, Method
+from compare.provenance import as_comment, in_words, provenance
 
 FORMATS = ("text", "json", "md", "csv")
 STYLES = {"stable": "bold green", "unstable": "bold red", "undecided": "bold yellow"}
@@ -28,6 +29,24 @@ class Subject:
     values: dict[str, float]
     forcing: dict[str, float]
     frequencies: tuple[tuple[str, complex], ...]
+    system: str
+    """The type of the system."""
+    fingerprint: str | None
+    """A name for all that the system holds, matrices too."""
+    method: Method
+
+    @property
+    def about(self) -> dict[str, Any]:
+        """What a file says of what it is of."""
+        return {
+            "title": self.title,
+            "kind": self.kind,
+            "system": self.system,
+            "values": self.fingerprint,
+            "parameters": self.values,
+            "forcing": self.forcing,
+            "method": self.method,
+        }
 
 
 def doubling_time(T: float) -> float | None:
@@ -75,15 +94,14 @@ def text(subject: Subject, x: CrossCheck, console: Console) -> None:
         phase = float(np.angle(mu)) / np.pi
         table.add_row(_complex(complex(mu)), f"{abs(mu):.9f}", f"{phase:+.6f}")
     console.print(table)
+    console.print()
+    console.print(_made(subject), style="dim", highlight=False)
 
 
 def as_dict(subject: Subject, x: CrossCheck) -> dict[str, Any]:
     """What JSON holds; complex numbers are [re, im]."""
-    return {
-        "title": subject.title,
-        "kind": subject.kind,
+    return provenance(subject.about) | {
         "parameters": {k: _finite(v) for k, v in subject.values.items()},
-        "forcing": subject.forcing,
         "frequencies": {name: _pair(value) for name, value in subject.frequencies},
         "hill": _route(x.hill),
         "floquet": _route(x.floquet),
@@ -98,7 +116,6 @@ def as_dict(subject: Subject, x: CrossCheck) -> dict[str, Any]:
         "T_error": x.T_error,
         "remark": x.remark,
         "doubling_time": doubling_time(x.T) if x.verdict == "unstable" else None,
-        "units": "dimensionless, over the system's own unit of frequency",
     }
 
 
@@ -115,12 +132,13 @@ def markdown(subject: Subject, x: CrossCheck) -> str:
     lines += [f"| {name} | {left} | {right} |" for name, left, right in _compared(x)]
     lines += ["", "| multiplier | modulus |", "| ---: | ---: |"]
     lines += [f"| {_complex(complex(mu))} | {abs(mu):.9f} |" for mu in x.floquet.multipliers]
-    return "\n".join(lines) + "\n"
+    return "\n".join([*lines, "", _made(subject)]) + "\n"
 
 
 def as_csv(subject: Subject, x: CrossCheck) -> str:
-    """One line a quantity, every digit."""
+    """What made it behind "# ", then one line a quantity, every digit."""
     buffer = io.StringIO()
+    buffer.write(as_comment(subject.about))
     writer = csv.writer(buffer, lineterminator="\n")
     writer.writerow(["quantity", "index", "hill", "floquet"])
     for name in ("T", "T_error", "error", "verdict", "remark"):
@@ -143,6 +161,12 @@ WRITERS: dict[str, Callable[[Subject, CrossCheck], str]] = {
     "md": markdown,
     "csv": as_csv,
 }
+
+
+def _made(subject: Subject) -> str:
+    """What made it; its parameters and forcing stand among the facts."""
+    about = {k: v for k, v in subject.about.items() if k not in ("title", "parameters", "forcing")}
+    return in_words(about)
 
 
 def _facts(subject: Subject) -> list[tuple[str, str]]:

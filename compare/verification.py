@@ -22,12 +22,23 @@ class Report:
     publication: Publication[Any, Any, Any]
     more_terms: dict[str, Any] = field(default_factory=dict)
     """By row id, what more terms of the series that it sums give; only where asked for."""
+    method: Method = "taylor"
+    """How the time domain integrated."""
+    modes: int | None = None
+    """How many modes both routes had, where there is something to choose."""
 
     @property
     def ok(self) -> bool:
         """Whether the routes agree on every row and no printed value lost its explanation."""
         more = all(found.routes_agree for found in self.more_terms.values())
         return more and all(o.routes_agree and o.expected for o in self.outcomes)
+
+    @property
+    def about(self) -> dict[str, Any]:
+        """What it is of, for a file to say."""
+        paper = self.publication
+        about = {"publication": paper.name, "title": paper.title, "method": self.method}
+        return about | ({} if self.modes is None else {"modes": self.modes})
 
     @property
     def summary(self) -> Counts | Any:
@@ -85,7 +96,8 @@ def verify(
         raise ValueError(f"method = {method!r}: must be {' or '.join(METHODS)}")
     if more_terms:
         check_more_terms(paper, chosen)
-    job = partial(_check, paper, method, _modes(paper, modes), more_terms)
+    count = _modes(paper, modes)
+    job = partial(_check, paper, method, count, more_terms)
     outcomes, more = [], {}
     with mapper(workers, chunk=4) as run:
         for outcome, found in run(job, chosen):
@@ -94,7 +106,7 @@ def verify(
                 more[outcome.row.id] = found
             if progress is not None:
                 progress(outcome)
-    return Report(tuple(outcomes), paper, more)
+    return Report(tuple(outcomes), paper, more, method, count)
 
 
 def check_more_terms(paper: Publication[Any, Any, Any], rows: Iterable[Any]) -> None:

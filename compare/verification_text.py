@@ -11,6 +11,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from compare.provenance import as_comment, in_words
 from compare.verification import Report
 
 SHOWN = ("all", "differs", "flips", "fail")
@@ -57,6 +58,8 @@ def text(report: Report, which: str = "all", *, console: Console) -> None:
         console.print(line, highlight=False, soft_wrap=True)
     if more:
         console.print()
+    console.print(in_words(report.about), style="dim", highlight=False)
+    console.print()
     for line in report.summary.lines:
         console.print(line, style="bold" if report.ok else "bold red", soft_wrap=True)
 
@@ -89,7 +92,7 @@ def _more_lines(report: Report, which: str) -> list[str]:
 
 
 def markdown(report: Report, which: str = "all") -> str:
-    """A table, and what was found."""
+    """A table, what was found, and what made it."""
     rendering = report.publication.rendering
     names = [column.name.replace("|", "\\|") for column in rendering.columns]
     lines = ["| " + " | ".join(names) + " |"]
@@ -98,13 +101,15 @@ def markdown(report: Report, which: str = "all") -> str:
         cells = [f"**{c.text}**" if c.loud else c.text for c in rendering.cells(outcome)]
         lines.append("| " + " | ".join(cells) + " |")
     more = [f"- {line}" for line in _more_lines(report, which)]
-    return "\n".join([*lines, *([""] if more else []), *more, "", *report.summary.lines]) + "\n"
+    found = [*([""] if more else []), *more, "", *report.summary.lines]
+    return "\n".join([*lines, *found, "", in_words(report.about)]) + "\n"
 
 
 def as_csv(report: Report, which: str = "all") -> str:
-    """One line a row, every digit."""
+    """What made it behind "# ", then one line a row, every digit."""
     rendering = report.publication.rendering
     buffer = io.StringIO()
+    buffer.write(as_comment(report.about))
     writer = csv.writer(buffer, lineterminator="\n")
     extra = [_more(report, outcome) for outcome in shown(report, which)]
     names = list(dict.fromkeys(name for more in extra for name in more))

@@ -1,6 +1,10 @@
-"""What every command owes to bad input: status 2 and one line on the standard error."""
+"""What every command owes: to bad input status 2 and one line; of a CSV file its lines."""
 
+import csv
+import io
+import json
 from collections.abc import Sequence
+from typing import Any
 
 import pytest
 
@@ -14,3 +18,10 @@ def refusal(words: Sequence[str], capsys: pytest.CaptureFixture[str]) -> str:
     assert captured.out == ""
     assert captured.err.count("\n") == 1
     return captured.err
+
+
+def csv_lines(text: str) -> tuple[dict[str, Any], list[dict[str, str]]]:
+    """The record behind "# " at the top of a CSV file, and its lines."""
+    first, _, rest = text.partition("\n")
+    assert first.startswith("# ")
+    return json.loads(first[2:]), list(csv.DictReader(io.StringIO(rest)))

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from commands import csv_lines
 
 from compare.__main__ import main
 from compare.report.figures import coupled as coupling
@@ -369,7 +370,9 @@ def test_two_processes(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> No
     assert [line[:9] for line in capsys.readouterr().out.splitlines()] == ["Figure  3", "Figure 27"]
     for name in ("figure03.csv", "figure27.csv"):
         text = (tmp_path / name).read_text()
-        assert text.startswith("figure,panel,series,role,from,x,y,y_upper\n")
+        about, lines = csv_lines(text)
+        assert about["figure"] == int(lines[0]["figure"]) == int(name[6:8])
+        assert list(lines[0]) == ["figure", "panel", "series", "role", "from", "x", "y", "y_upper"]
 
 
 @pytest.mark.parametrize(

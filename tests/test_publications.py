@@ -1,7 +1,5 @@
 """Papers with printed tables: Mathieu's values, a toy made here, and what holds for every paper."""
 
-import csv
-import io
 import json
 from dataclasses import dataclass, replace
 from decimal import Decimal
@@ -10,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from commands import refusal
+from commands import csv_lines, refusal
 from scipy.linalg import eigh_tridiagonal
 
 from compare import both_routes, publications, verify
@@ -177,7 +175,7 @@ def test_json_markdown_and_csv_agree(capsys: pytest.CaptureFixture[str]) -> None
     assert (one["printed"], one["half_unit"], one["z"]) == (2.09946045, 5e-9, 1)
     assert one["hill"]["below"] * one["hill"]["above"] < 0.0
     assert main([*words, "--format", "csv"]) == 0
-    lines = list(csv.DictReader(io.StringIO(capsys.readouterr().out)))
+    _, lines = csv_lines(capsys.readouterr().out)
     assert [line["shown_by"] for line in lines] == ["both", "neither"]
     assert float(lines[0]["hill_P"]) == one["hill"]["at"]
     assert main([*words, "--format", "md", "--show", "differs"]) == 0

@@ -1,12 +1,10 @@
 """Five terms of the free vibration, eight, and all of them."""
 
-import csv
-import io
 import json
 from dataclasses import replace
 
 import pytest
-from commands import refusal
+from commands import csv_lines, refusal
 
 from compare import verify
 from compare.__main__ import main
@@ -85,7 +83,7 @@ def test_the_command_puts_them_beside_the_rows(capsys: pytest.CaptureFixture[str
 def test_csv_text_and_markdown_have_them(capsys: pytest.CaptureFixture[str]) -> None:
     words = ["--row", LINE, "--more-terms"]
     assert main([*words, "--format", "csv"]) == 0
-    rows = list(csv.DictReader(io.StringIO(capsys.readouterr().out)))
+    _, rows = csv_lines(capsys.readouterr().out)
     assert [row["more_terms_terms"] for row in rows] == ["", "8"]
     said = "T3-02b: 8 terms for 5, both routes: stable, and so in the limit."
     assert main(words) == 0

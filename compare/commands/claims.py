@@ -14,6 +14,7 @@ from rich.text import Text
 
 from compare.commands.terminal import progress, terminal
 from compare.output import check_writable, write_whole
+from compare.provenance import in_words
 from compare.report.claims import page
 from compare.report.claims.both_routes import RoutesDisagree
 from compare.report.claims.finding import VERDICTS
@@ -114,6 +115,8 @@ def print_text(
         console.print()
     for one in listed if details else ():
         _details(one, console)
+    console.print(in_words(page.ABOUT), style="dim", highlight=False)
+    console.print()
     for line in page.summary(judged):
         console.print(line, style="bold", soft_wrap=True)
 

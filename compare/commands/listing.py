@@ -3,10 +3,13 @@
 import argparse
 import sys
 from collections import Counter
+from hashlib import sha256
 from pathlib import Path
+from typing import Any
 
 from compare.commands.terminal import progress
 from compare.output import check_writable, write_whole
+from compare.provenance import as_comment
 from compare.report.program.cards import Cards, from_file, shipped
 from compare.report.program.collate import (
     Difference,
@@ -80,10 +83,11 @@ def run(options: argparse.Namespace) -> int:
         status = 0 if known and not failed else 1
     content = "\n".join(written) + "\n"
     if options.output is None:
+        # the terminal has the report's output to the last character
         sys.stdout.write(content)
         sys.stdout.flush()
     else:
-        write_whole(options.output, content)
+        write_whole(options.output, content + as_comment(_about(cards, options)))
     if failed:
         print(f"verify listing: not computed: {failed} of the resonances", file=sys.stderr)
     return status
@@ -140,6 +144,17 @@ def _summary(judged: list[LineComparison], strangers: int) -> list[str]:
     extra = sum(j.printed is None for j in judged)
     written += [f"{extra:6}  lines more than printed"] if extra else []
     return [*written, f"{strangers:6}  differences without a known cause"]
+
+
+def _about(cards: Cards, options: argparse.Namespace) -> dict[str, Any]:
+    """Whose program, by which route, and a name for the deck's cards."""
+    return {
+        "program": options.program,
+        "route": options.route,
+        "deck": "the report's" if options.deck is None else "one's own",
+        "cards": sha256("\n".join(cards.lines).encode()).hexdigest()[:16],
+        "compared_with_print": options.compare,
+    }
 
 
 def _opened(path: Path) -> Cards:

@@ -12,11 +12,12 @@ from rich import box
 from rich.console import Console
 from rich.table import Table
 
+from compare.charts.identity import known_values, type_name
 from compare.charts.limits import checked
 from compare.commands import asked
 from compare.commands.terminal import terminal, working
 from compare.output import check_writable, write_whole
-from compare.provenance import provenance
+from compare.provenance import in_words, provenance
 from compare.system_file import Described
 from floquet import SystemSensitivities, system_sensitivities
 from hill import System
@@ -73,16 +74,17 @@ def run(options: argparse.Namespace) -> int:
     if (options.format or suffix) == "json":
         _write(json.dumps(content(wanted, found), indent=2) + "\n", options.output)
     elif options.output is None:
-        show(wanted.title, found, terminal())
+        show(wanted, found, terminal())
     else:
         buffer = io.StringIO()
-        show(wanted.title, found, Console(file=buffer, width=100))
+        show(wanted, found, Console(file=buffer, width=100))
         write_whole(options.output, buffer.getvalue())
     return 0
 
 
-def show(title: str, found: SystemSensitivities, console: Console) -> None:
+def show(wanted: Described, found: SystemSensitivities, console: Console) -> None:
     """Print where, what T is, and a line for each parameter."""
+    title = wanted.title
     at = ", ".join(f"{name} = {found.values[name]:.7g}" for name in ("Omega", "gamma", "eta"))
     console.print(
         f"{title[:1].upper()}{title[1:]} at {at}: T = {round(found.T, 6) + 0.0:.6f}",
@@ -106,13 +108,13 @@ def show(title: str, found: SystemSensitivities, console: Console) -> None:
     if found.shared_matrices:
         console.print()
         console.print("The matrices are the system's own; the time domain has no others for it.")
+    console.print()
+    console.print(in_words(_about(wanted, found)), style="dim", highlight=False)
 
 
 def content(wanted: Described, found: SystemSensitivities) -> dict[str, Any]:
     """What JSON holds; complex numbers are [re, im]."""
-    beam = {"beam": wanted.kind} if wanted.kind in asked.BEAMS else {}
-    about = {"title": wanted.title, "kind": wanted.kind, "shared_matrices": found.shared_matrices}
-    return provenance(about | beam) | {
+    return provenance(_about(wanted, found)) | {
         "T": found.T,
         "z": _pairs(found.z),
         "parameters": [
@@ -127,6 +129,18 @@ def content(wanted: Described, found: SystemSensitivities) -> dict[str, Any]:
             for name, value in found.values.items()
         ],
     }
+
+
+def _about(wanted: Described, found: SystemSensitivities) -> dict[str, Any]:
+    """The system, by what it holds; its parameters and forcing stand with their derivatives."""
+    about = {
+        "title": wanted.title,
+        "kind": wanted.kind,
+        "system": type_name(wanted.system),
+        "values": known_values(wanted.system),
+        "shared_matrices": found.shared_matrices,
+    }
+    return about | ({"beam": wanted.kind} if wanted.kind in asked.BEAMS else {})
 
 
 def _resonant(beam: System) -> float:

@@ -9,6 +9,7 @@ from rich.console import Console
 
 from compare import system_file
 from compare.both_routes import crosscheck
+from compare.charts.identity import known_values, type_name
 from compare.commands.asked import settings
 from compare.commands.terminal import terminal, working
 from compare.crosscheck_text import FORMATS, WRITERS, Subject, text
@@ -97,6 +98,9 @@ def run(options: argparse.Namespace) -> int:
                 strict=True,
             )
         ),
+        system=type_name(found.system),
+        fingerprint=known_values(found.system),
+        method=options.method,
     )
     kind = options.format or (options.output.suffix[1:] if options.output else "text")
     if kind in WRITERS:

@@ -13,6 +13,7 @@ from scipy.optimize import linear_sum_assignment
 
 from compare.erratum import Erratum
 from compare.output import check_writable, write_whole
+from compare.provenance import in_words
 from compare.publications.kincaid import check
 from compare.report.errata import all_errata
 from compare.report.match import distance
@@ -47,6 +48,8 @@ KINDS = {
         "The report's program, run again, does not give these printed values.",
     ),
 }
+
+ABOUT = {"of": "Tables 1 to 3, each row at its own beam and forcing, its own matrices each route"}
 
 INTRODUCTION = """\
 # Errata of the report
@@ -92,7 +95,7 @@ def page(outcomes: Iterable[Outcome] | None = None) -> str:
         parts += [f"## {title}"] + ([lead] if lead else [])
         parts += [_entry(e, by_row) for e in all_errata() if e.kind == kind]
     parts += [VERDICTS, _flips(found), BACK, _misses(found)]
-    return "\n\n".join(parts) + "\n"
+    return "\n\n".join([*parts, in_words(ABOUT)]) + "\n"
 
 
 def _entry(erratum: Erratum, by_row: dict[str, Outcome]) -> str:

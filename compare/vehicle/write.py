@@ -8,6 +8,8 @@ from rich import box
 from rich.console import Console
 from rich.table import Table
 
+from compare.charts.identity import known_values, type_name
+from compare.provenance import in_words, provenance
 from compare.vehicle.study import Row, Study
 from compare.vehicle.words import HEADS, cells, cycles, doubling, facts, moved, remarks, summary
 
@@ -41,6 +43,8 @@ def text(title: str, study: Study, console: Console) -> None:
     console.print()
     for line in remarks(study):
         console.print(line, highlight=False)
+    console.print()
+    console.print(in_words(_about(study)), style="dim", highlight=False)
 
 
 def markdown(title: str, study: Study) -> str:
@@ -49,13 +53,14 @@ def markdown(title: str, study: Study) -> str:
     lines += ["| " + " | ".join(HEADS) + " |", "| --- " * len(HEADS) + "|"]
     lines += ["| " + " | ".join(cells(row)) + " |" for row in study.rows]
     lines += ["", *(f"- {moved(row)}" for row in study.rows if row.effects), ""]
-    return "\n".join([*lines, *(f"- {line}" for line in remarks(study))]) + "\n"
+    lines += [*(f"- {line}" for line in remarks(study)), "", in_words(_about(study))]
+    return "\n".join(lines) + "\n"
 
 
 def as_json(title: str, study: Study) -> str:
     """Every digit; frequencies in cycles per unit of time."""
     u, loss, x = study.vehicle.units, study.loss, study.operating
-    content: dict[str, Any] = {
+    content = provenance(_about(study)) | {
         "title": title,
         "summary": list(summary(title, study)),
         "units": {
@@ -65,10 +70,6 @@ def as_json(title: str, study: Study) -> str:
             "force": u.force,
             "frequency": u.frequency,
         },
-        "gamma": study.gamma,
-        "eta": study.eta,
-        "range": [cycles(study.low), cycles(study.high)],
-        "orders": study.orders,
         "mass": study.body.mass,
         "centre_of_mass": study.body.centre,
         "moment_of_inertia": study.body.inertia,
@@ -98,6 +99,21 @@ def as_json(title: str, study: Study) -> str:
         "routes_agree": study.routes_agree,
     }
     return json.dumps(content, indent=1, allow_nan=False) + "\n"
+
+
+def _about(study: Study) -> dict[str, Any]:
+    """The vehicle, by what it holds, and what was asked of it."""
+    u = study.vehicle.units
+    return {
+        "system": type_name(study.vehicle),
+        "values": known_values(study.vehicle),
+        "gamma": study.gamma,
+        "eta": study.eta,
+        "range": [cycles(study.low), cycles(study.high)],
+        "orders": study.orders,
+        "units": f"{', '.join(x for x in (u.length, u.mass, u.time, u.force) if x) or 'none named'}"
+        f"; frequencies in {u.frequency or 'cycles'}",
+    }
 
 
 def _row(row: Row) -> dict[str, Any]:

@@ -9,7 +9,11 @@ from pathlib import Path
 from typing import Any
 
 from compare.output import check_writable, write_whole
+from compare.provenance import in_words, provenance
 from compare.report.claims.run import JudgedClaim, count, judge
+
+ABOUT = {"of": "the report's conclusions, each with its own beam and forcing as it says"}
+"""What a file of claims is of."""
 
 FORMATS = ("text", "md", "json")
 HEADING = """\
@@ -50,7 +54,7 @@ def markdown(judged: Iterable[JudgedClaim]) -> str:
     ]
     for one in found:
         lines += ["", *_entry(one)]
-    return "\n".join(lines) + "\n"
+    return "\n".join([*lines, "", in_words(ABOUT)]) + "\n"
 
 
 def _entry(one: JudgedClaim) -> list[str]:
@@ -82,7 +86,7 @@ def summary(judged: Iterable[JudgedClaim]) -> tuple[str, str]:
 def as_json(shown: Iterable[JudgedClaim], judged: Iterable[JudgedClaim]) -> str:
     """Everything, every digit."""
     everything = tuple(judged)
-    content = {
+    content = provenance(ABOUT) | {
         "summary": {"claims": len(everything), **count(everything)}
         | {"ok": all(one.as_expected for one in everything)},
         "claims": [as_dict(one) for one in shown],

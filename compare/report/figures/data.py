@@ -9,6 +9,9 @@ from typing import Any, Literal, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from compare.provenance import as_comment
+from compare.report.figures.catalogue import FIGURES
+
 Float = NDArray[np.floating[Any]]
 Role = Literal["curve", "region", "mark", "printed", "event"]
 COLUMNS = ("figure", "panel", "series", "role", "from", "x", "y", "y_upper")
@@ -88,9 +91,21 @@ def largest(differences: Iterable[Any]) -> float:
     return max((float(np.max(np.abs(d))) for d in differences if np.size(d)), default=0.0)
 
 
+def about(data: FigureData) -> dict[str, Any]:
+    """The figure, the beam and the forcing that it is of, and how far the routes differ."""
+    figure = vars(FIGURES[data.number])
+    given = {name: value for name, value in figure.items() if name not in ("number", "kind")}
+    return (
+        {"figure": data.number}
+        | given
+        | {"compared_in": data.quantity, "disagreement": data.disagreement}
+    )
+
+
 def as_csv(data: FigureData) -> str:
-    """A line a point; numbers so that they read back exactly."""
+    """What made it behind "# ", then a line a point; numbers so that they read back exactly."""
     text = io.StringIO()
+    text.write(as_comment(about(data)))
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(COLUMNS)
     for s in data.series:
@@ -120,7 +135,7 @@ def from_csv(text: str) -> tuple[Series, ...]:
                 Series(plain, cast(Role, role), source, x, y, upper, panel=panel, damped=damped)
             )
 
-    for line in csv.DictReader(io.StringIO(text)):
+    for line in csv.DictReader(x for x in io.StringIO(text) if not x.startswith("#")):
         key = (line["panel"], line["series"], line["role"], line["from"])
         if key != before:
             close()

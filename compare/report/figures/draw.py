@@ -4,9 +4,10 @@ import io
 from collections.abc import Callable
 from typing import Any
 
+from compare.provenance import picture_metadata
 from compare.report.figures import maps, panels, style
 from compare.report.figures.catalogue import FIGURES
-from compare.report.figures.data import FigureData
+from compare.report.figures.data import FigureData, about
 
 MISSING = 'matplotlib is not installed: pip install "floquet-crosscheck[plot]"'
 LINE = 0.158
@@ -73,7 +74,7 @@ def draw(data: FigureData, formats: tuple[str, ...]) -> dict[str, bytes]:
         drawer(page, figure, data)
         page.draw_without_rendering()  # lay out once, not for every format
         page.set_layout_engine("none")
-        return {kind: _saved(page, kind) for kind in formats}
+        return {kind: _saved(page, kind, about(data)) for kind in formats}
 
 
 def _width() -> Callable[[str], float]:
@@ -93,8 +94,7 @@ def _width() -> Callable[[str], float]:
     return width
 
 
-def _saved(page: Any, kind: str) -> bytes:
+def _saved(page: Any, kind: str, of: dict[str, Any]) -> bytes:
     buffer = io.BytesIO()
-    metadata = {"Date": None, "Creator": None} if kind == "svg" else {"Software": None}
-    page.savefig(buffer, format=kind, metadata=metadata)
+    page.savefig(buffer, format=kind, metadata=picture_metadata(of, kind))
     return buffer.getvalue()
