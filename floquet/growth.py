@@ -89,14 +89,34 @@ class LogDiscs:
             )
 
 
-def growth_from_multipliers(families: Sequence[LogDiscs], period: float, mean: float) -> Growth:
-    """T = (2/period) ln max |mu|, the damping being in mu; `mean` is the mean of all ln |mu|."""
+def growth_from_multipliers(
+    families: Sequence[LogDiscs], period: float, mean: float, decay: float | None = None
+) -> Growth:
+    """T = (2/period) ln max |mu|, the damping being in mu; `mean` is the mean of all ln |mu|.
+
+    With `decay` the multipliers come in pairs about |mu| = exp(-decay period/2).
+    """
     least, most = mean, np.inf
     for discs in families:
         least = max(least, _least(discs.together, discs.least))
         most = min(most, float(np.max(discs.most)))
     value = float(np.max(families[0].value.real))
+    if decay is not None and any(_on_circle(discs, -0.5 * decay * period) for discs in families):
+        return _growth(0.0, 0.0, 0.0, period, decay, bounded=True)
     return _growth(value, least, most, period, 0.0)
+
+
+def _on_circle(discs: LogDiscs, level: float) -> bool:
+    """Whether all multipliers are shown to be on the circle about which they pair.
+
+    A multiplier alone in its disc whose partner cannot be in any other disc is its own partner.
+    """
+    off = _log_radius(discs)
+    partner = 2.0 * level - discs.value.conj()
+    unsure = off + 8.0 * EPS * (abs(level) + np.abs(discs.value))
+    apart = _wrapped(partner[:, None] - discs.value) > 1.01 * (unsure[:, None] + off)
+    alone = np.sum(discs.together, axis=1) == 1
+    return bool(np.all(alone) and np.all(apart | np.eye(len(off), dtype=bool)))
 
 
 def logarithm_error(z: Complex, families: Sequence[Discs]) -> Float:
@@ -130,15 +150,21 @@ def logarithms(families: Sequence[LogDiscs]) -> tuple[Complex, Float]:
     value = value[np.argsort(-value.real, kind="stable")]
     off = np.full(len(value), np.inf)
     for discs in families:
-        with np.errstate(divide="ignore"):
-            own = -np.log1p(-np.minimum(discs.radius, 1.0))
-        own = own + 4.0 * EPS * np.abs(discs.value)
+        own = _log_radius(discs)
         # a region has as many as it has discs, but they may be in any of them
         between = _wrapped(discs.value[:, None] - discs.value)
         region = np.max(np.where(discs.together, between + own, 0.0), axis=1)
         away = _wrapped(value[:, None] - discs.value)
         off = np.minimum(off, np.min(away + region, axis=1))
     return value, off
+
+
+def _log_radius(discs: LogDiscs) -> Float:
+    """How far ln mu is from its value at most."""
+    with np.errstate(divide="ignore"):
+        return np.asarray(
+            -np.log1p(-np.minimum(discs.radius, 1.0)) + 4.0 * EPS * np.abs(discs.value)
+        )
 
 
 def _wrapped(difference: Complex) -> Float:

@@ -216,7 +216,10 @@ def test_multipliers_of_a_damping_matrix_are_judged() -> None:
     excited = HillEquation(np.diag([1.0, 4.0]), np.eye(2), 0.1, 2.7, eta=np.diag([-0.1, 0.2]))
     assert monodromy(excited).verdict == "unstable"
     free = HillEquation(np.diag([1.0, 4.0]), np.eye(2), 0.1, 2.7, eta=np.zeros((2, 2)))
-    assert monodromy(free).verdict == "undecided"  # on the circle, and pairs are not used
+    assert monodromy(free).verdict == "stable"  # on the circle, in pairs
+    trace = np.diag([2.0**-60, -(2.0**-60)])
+    nearly = HillEquation(np.diag([1.0, 4.0]), np.eye(2), 0.1, 2.7, eta=trace)
+    assert monodromy(nearly).verdict == "undecided"
     nothing = discs_from_polynomial(np.ones(1, complex), np.array([1.0, -1.0]), np.zeros(2))
     assert growth_from_multipliers((LogDiscs.of(nothing),), 1.0, 0.0).verdict == "undecided"
 

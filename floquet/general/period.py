@@ -15,6 +15,7 @@ from floquet.charpoly import beyond_first_order, characteristic_polynomial
 from floquet.eigenvalues import discs_from_matrix, discs_from_polynomial, sorted_eigenvalues
 from floquet.general.mode_bounds import discs_one_by_one
 from floquet.general.modes import merged, periodic_discs
+from floquet.general.symmetry import pairs_decay
 from floquet.growth import TINY, LogDiscs, growth_from_multipliers, logarithms
 from floquet.integrate.methods import METHODS
 from floquet.integrate.normal_form import NormalForm, normal_form
@@ -74,7 +75,10 @@ def general_monodromy(
     found = replace(found, errors=found.errors + further)
     families = _families(run, found, floor)
     m = len(run.product)
-    growth = growth_from_multipliers(families, form.period, form.period * form.trace / m)
+    mean = form.period * form.trace / m
+    growth = growth_from_multipliers(families, form.period, mean)
+    if growth.verdict == "undecided":
+        growth = growth_from_multipliers(families, form.period, mean, pairs_decay(equation))
     value, off = logarithms(families)
     units = form.state_units(run.grid.unit)
     matrix, matrix_error = (units[:, None] * x / units for x in (run.product, found.matrix_error))

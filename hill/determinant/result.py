@@ -9,6 +9,7 @@ from hill.arrays import EPS, Complex, Float
 from hill.determinant.general_polynomial import Polynomial, polynomial
 from hill.determinant.general_values import Determinant, determinant
 from hill.determinant.in_z import by_discs
+from hill.determinant.on_circle import judged
 from hill.determinant.roots import WELL_KNOWN, discs, improved, larger_of_pair, monic_in_y
 from hill.equation import HillEquation
 from hill.multipliers import Multipliers, in_discs, multipliers
@@ -137,7 +138,9 @@ def of_multipliers(equation: HillEquation | PeriodicEquation) -> Characteristic:
         found = polynomial(d)
         c, errors, data = found.unscaled()
         m = multipliers(found.coefficients, found.errors, equation.period, found.log_scale)
-        m = _by_discs(d, found, m, equation.period)
+        # where the symmetry is enough, roots need not be improved; else better ones may help it
+        m = judged(equation, d, m)
+        m = judged(equation, d, _by_discs(d, found, m, equation.period))
     return Characteristic(
         polynomial=c,
         errors=errors,
