@@ -26,8 +26,11 @@ COMMANDS: tuple[str, ...] = (
 # take seven times as long as one. What the environment says already is left.
 MANY_SMALL = ("vehicle",)
 
-INTERRUPTED, ENDED, READER_GONE = 130, 143, 141
-"""Exit statuses of a shell's convention: 128 and the number of the signal."""
+READER_GONE = 141
+"""Exit status of a shell's convention: 128 and the number of the signal."""
+
+SIGNALS = {signal.SIGINT: "interrupted", signal.SIGTERM: "terminated"}
+"""What ends a command, and what it says then; its exit status is 128 and the number."""
 
 # What argparse takes for an option otherwise: "-1e-3" behind --x.
 NEGATIVE = re.compile(r"^-(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?$|^-inf$|^-nan$")
@@ -41,19 +44,19 @@ def main(argv: Sequence[str] | None = None) -> int:
     if sys.stdout is None:
         _say(program, "standard output is closed")
         return 2
-    handlers = {number: signal.getsignal(number) for number in (signal.SIGTERM, signal.SIGINT)}
-    # a signal that ends the process ends it as an exception: cursor, files, workers are mended
+    handlers = {number: signal.getsignal(number) for number in SIGNALS}
     with suppress(ValueError):  # not the main thread
-        signal.signal(signal.SIGTERM, _terminate)
-        # libraries swallow a Ctrl-C that meets them while they are imported
-        signal.signal(signal.SIGINT, lambda *_: _leave(program))
+        # libraries swallow an exception that meets them while they are imported
+        for number in SIGNALS:
+            signal.signal(number, lambda number, _: _leave(program, number))
     try:
         status = _run(words)
         sys.stdout.flush()
         return status
-    except KeyboardInterrupt:
-        _say(program, "interrupted")
-        return INTERRUPTED
+    except KeyboardInterrupt as end:
+        number = end.number if isinstance(end, _Signalled) else signal.SIGINT
+        _say(program, SIGNALS[number])
+        return 128 + number
     except BrokenPipeError:
         # the reader went away (verify | head): nothing more to say, and no complaint at exit
         _discard_output()
@@ -90,18 +93,30 @@ def _run(words: list[str]) -> int:
     options = _parser(command, program, name).parse_args(words)
     from compare.jobs.workers import WorkersError
 
+    heard: list[signal.Signals] = []
+
+    def signalled(number: int, _frame: Any) -> None:
+        """End as an exception does: cursor, files and workers are mended."""
+        heard.append(signal.Signals(number))
+        raise _Signalled(heard[0])
+
     with suppress(ValueError):
-        signal.signal(signal.SIGINT, signal.default_int_handler)
+        for number in SIGNALS:
+            signal.signal(number, signalled)
     try:
-        return int(command.run(options))
-    except (ValueError, OverflowError, MemoryError, WorkersError) as error:
+        status = int(command.run(options))
+    except Exception as error:
+        # a library may make an error of its own of it, and workers may be ended by it too
+        if heard:
+            raise _Signalled(heard[0]) from None
+        if not isinstance(error, (ValueError, OverflowError, MemoryError, WorkersError)):
+            raise
         _say(program, " ".join(str(error).split()) or "out of memory")
         return 2
-    except RuntimeError as error:
-        # CasADi turns Ctrl-C into an error of its own
-        if "KeyboardInterrupt" in str(error):
-            raise KeyboardInterrupt from None
-        raise
+    if heard:
+        # ... or swallow it
+        raise _Signalled(heard[0])
+    return status
 
 
 def _parser(command: Any, program: str, name: str) -> argparse.ArgumentParser:
@@ -131,14 +146,18 @@ def _version() -> str:
     return f"{own} (Python {platform.python_version()}, {', '.join(parts)})"
 
 
-def _terminate(_signal: int, _frame: Any) -> None:
-    sys.exit(ENDED)
+class _Signalled(KeyboardInterrupt):
+    """A signal that ends the command."""
+
+    def __init__(self, number: signal.Signals) -> None:
+        super().__init__(number)
+        self.number = number
 
 
-def _leave(program: str) -> None:
+def _leave(program: str, number: int) -> None:
     """End at once; nothing has been begun."""
-    _say(program, "interrupted")
-    os._exit(INTERRUPTED)
+    _say(program, SIGNALS[signal.Signals(number)])
+    os._exit(128 + number)
 
 
 def _say(program: str, what: str) -> None:

@@ -1,14 +1,20 @@
 """Every wrong command ends with status 2, one line that names what is wrong, and nothing left."""
 
 import os
+import signal
 import subprocess
 import sys
+import time
+from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
 from bad_commands import COMMANDS, files
 
 from compare.__main__ import main
+from compare.commands import rows
+from compare.commands.terminal import progress
 
 
 def test_there_are_enough() -> None:
@@ -90,6 +96,83 @@ def test_an_interrupt_is_one_line(tmp_path: Path) -> None:
         _, told = process.communicate(timeout=30)
         assert process.returncode == 130
         assert told.strip() == "verify claims: interrupted"
+
+
+@needs_a_shell
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM], ids=lambda n: n.name)
+@pytest.mark.parametrize("delay", [1.2, 3.0])
+def test_workers_end_with_a_signal(tmp_path: Path, number: signal.Signals, delay: float) -> None:
+    """While they are started, and at work: of half a minute of it nothing is waited for."""
+    words = [sys.executable, "-m", "compare", "figures", "--workers", "2", "--output", "figures"]
+    with subprocess.Popen(
+        words, stderr=subprocess.PIPE, text=True, cwd=tmp_path, start_new_session=True
+    ) as process:
+        with pytest.raises(subprocess.TimeoutExpired):
+            process.wait(delay)
+        os.killpg(process.pid, number)
+        _, told = process.communicate(timeout=10)
+    assert process.returncode == 128 + number
+    assert told == f"verify figures: {'interrupted' if number == 2 else 'terminated'}\n"
+    assert not list(tmp_path.rglob(".unfinished*"))
+    deadline = time.monotonic() + 5.0
+    while alive(process.pid):
+        assert time.monotonic() < deadline
+        time.sleep(0.05)
+
+
+def alive(group: int) -> list[str]:
+    """Processes of a group that have not ended."""
+    found = []
+    for path in Path("/proc").glob("[0-9]*/stat"):
+        with suppress(OSError):
+            state, _, own = path.read_text().rpartition(")")[2].split()[:3]
+            if int(own) == group and state not in "ZX":
+                found.append(path.parent.name)
+    return found
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM], ids=lambda n: n.name)
+@pytest.mark.parametrize("made_of_it", [KeyboardInterrupt, RuntimeError, None])
+def test_a_signal_is_told_whatever_a_library_makes_of_it(
+    number: int,
+    made_of_it: type[BaseException] | None,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    def run(_options: object) -> int:
+        with suppress(KeyboardInterrupt):
+            signal.raise_signal(number)
+        if made_of_it is not None:
+            raise made_of_it
+        return 0
+
+    before = signal.getsignal(number)
+    monkeypatch.setattr(rows, "run", run)
+    assert main(["--table", "1"]) == (128 + number if made_of_it is not KeyboardInterrupt else 130)
+    told = capsys.readouterr().err
+    assert told in ("verify: interrupted\n", "verify: terminated\n")
+    assert signal.getsignal(number) is before
+
+
+def test_the_cursor_is_back_wherever_a_signal_meets_the_bar(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    from rich.live import Live
+
+    def begun(refresh: Callable[..., None]) -> Callable[..., None]:
+        def interrupted(*args: object, **keywords: object) -> None:
+            monkeypatch.setattr(Live, "refresh", refresh)
+            raise KeyboardInterrupt
+
+        return interrupted
+
+    monkeypatch.setenv("FORCE_COLOR", "1")
+    monkeypatch.setenv("TTY_INTERACTIVE", "1")
+    monkeypatch.setattr(Live, "refresh", begun(Live.refresh))
+    with pytest.raises(KeyboardInterrupt), progress("bar", 3):
+        pass
+    told = capsys.readouterr().err
+    assert told.rfind("\x1b[?25h") > told.rfind("\x1b[?25l") >= 0
 
 
 def test_a_link_is_followed_and_a_device_written_to(folder: Path) -> None:

@@ -2,6 +2,7 @@
 
 import os
 import signal
+import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -102,3 +103,49 @@ def test_an_executor_is_told_how_to_go_in() -> None:
             pass
         with mapper(pool.map) as run:
             assert list(run(square, range(3))) == [0, 1, 4]
+
+
+def _begun_and_long(folder: Path) -> None:
+    (folder / str(os.getpid())).touch()
+    time.sleep(120.0)
+
+
+def _interrupt_when_begun(folder: Path, when: list[float]) -> None:
+    deadline = time.monotonic() + 60.0
+    while len(list(folder.iterdir())) < 2 and time.monotonic() < deadline:
+        time.sleep(0.05)
+    when.append(time.monotonic())
+    # the thread that waits must hear it
+    signal.pthread_kill(threading.main_thread().ident or 0, signal.SIGINT)
+
+
+def _work_for_long(folder: Path) -> None:
+    with mapper(2) as run:
+        list(unordered(run)(_begun_and_long, [folder, folder]))
+
+
+def test_nobody_waits_for_what_was_given_up(tmp_path: Path) -> None:
+    """Two minutes of work, interrupted: over at once, and nobody left."""
+    when: list[float] = []
+    threading.Thread(target=_interrupt_when_begun, args=(tmp_path, when)).start()
+    with pytest.raises(KeyboardInterrupt):
+        _work_for_long(tmp_path)
+    assert time.monotonic() - when[0] < 10.0
+    for path in tmp_path.iterdir():
+        with pytest.raises(ProcessLookupError):
+            os.kill(int(path.name), 0)
+
+
+def test_a_signal_waits_for_a_process_that_is_being_started() -> None:
+    """Half a process would print a traceback, and nobody would know of it."""
+    done = []
+
+    def start() -> None:
+        with compare.jobs.workers._signals_later():
+            signal.raise_signal(signal.SIGINT)
+            done.append(True)
+
+    with pytest.raises(KeyboardInterrupt):
+        start()
+    assert done
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler

@@ -61,12 +61,15 @@ def run(options: argparse.Namespace) -> int:
     if set(formats) - {"csv"}:
         require()
     _prepare(options.output)
-    job = partial(_make, formats=formats, folder=options.output)
+    job = partial(_make, formats=formats)
     lines: list[tuple[int, str]] = []
     with progress("figures", len(numbers)) as advance, mapper(options.workers) as each:
         for made in each(job, tasks(numbers)):
-            for line in made:
-                lines.append(line)
+            for number, files, line in made:
+                # here and not there: who computes may be ended at any time
+                for kind, content in files.items():
+                    write_whole(options.output / f"figure{number:02d}.{kind}", content)
+                lines.append((number, line))
                 advance(line)
     for _, text in sorted(lines):
         print(text)
@@ -85,8 +88,10 @@ def _prepare(folder: Path) -> None:
     check_writable(folder / "figure")
 
 
-def _make(group: tuple[int, ...], formats: tuple[str, ...], folder: Path) -> list[tuple[int, str]]:
-    """Figures of one group: computed, drawn, written; a line about each."""
+def _make(
+    group: tuple[int, ...], formats: tuple[str, ...]
+) -> list[tuple[int, dict[str, bytes], str]]:
+    """Figures of one group, computed and drawn: files by format, and a line about each."""
     made = []
     for number in group:
         data = compute(number)
@@ -96,12 +101,11 @@ def _make(group: tuple[int, ...], formats: tuple[str, ...], folder: Path) -> lis
             content |= draw(data, pictures)
         if "csv" in formats:
             content["csv"] = as_csv(data).encode()
-        for kind, text in content.items():
-            write_whole(folder / f"figure{number:02d}.{kind}", text)
         kinds = ", ".join(sorted(content))
         made.append(
             (
                 number,
+                content,
                 f"Figure {number:2d}  {kinds}  the routes differ by {data.disagreement:.0e} "
                 f"in {data.quantity} at most",
             )

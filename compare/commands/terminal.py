@@ -46,7 +46,7 @@ def progress(what: str, total: int) -> Iterator[Callable[[object], None]]:
         disable=not console.is_terminal,
     )
     task = bar.add_task(what, total=total)
-    with bar:
+    with _running(bar):
         yield lambda _: bar.advance(task)
 
 
@@ -78,7 +78,7 @@ def stages() -> Iterator[Callable[[str, int, int], None]]:
         count = f"{done} of {total}" + (share if what == "nodes" else "") if total else ""
         bar.update(task, description=what, completed=done, total=total or None, count=count)
 
-    with bar:
+    with _running(bar):
         yield stage
 
 
@@ -87,8 +87,20 @@ def working(what: str) -> Iterator[None]:
     """A line on the standard error, with the seconds, while there are no steps to count."""
     console = Console(stderr=True)
     columns = (SpinnerColumn(), TextColumn(what), TimeElapsedColumn())
-    with Progress(
-        *columns, console=console, transient=True, disable=not console.is_terminal
-    ) as bar:
-        bar.add_task(what, total=None)
+    bar = Progress(*columns, console=console, transient=True, disable=not console.is_terminal)
+    bar.add_task(what, total=None)
+    with _running(bar):
         yield
+
+
+@contextmanager
+def _running(bar: Progress) -> Iterator[None]:
+    """A bar while it is needed, and the cursor back, wherever a signal meets it."""
+    try:
+        with bar:
+            yield
+    except BaseException:
+        # it may have been met half begun
+        bar.stop()
+        bar.console.show_cursor()
+        raise

@@ -60,9 +60,14 @@ def mapper(workers: int | MapLike, chunk: int = 1) -> Iterator[MapLike]:
     if count == 1:
         yield map
         return
-    pool = ProcessPoolExecutor(count, mp_context=_Context(), initializer=_follow_parent)
+    context = _Context()
+    pool = ProcessPoolExecutor(count, mp_context=context, initializer=_follow_parent)
     try:
         yield _Processes(pool, chunk)
+    except BaseException:
+        # nobody waits for what is still being worked on, half a minute of it perhaps
+        context.kill()
+        raise
     finally:
         pool.shutdown(cancel_futures=True)
 
@@ -128,12 +133,30 @@ class _Process(SpawnProcess):
 
     def start(self) -> None:
         """Start it; it ignores the terminal's Ctrl-C, which is this process's to answer."""
-        with _environment(ONE_THREAD), _no_interrupts():
+        with _environment(ONE_THREAD), _no_interrupts(), _signals_later():
             super().start()
 
 
 class _Context(SpawnContext):
-    Process = _Process
+    """Knows the processes that it made."""
+
+    def __init__(self) -> None:
+        self._made: list[_Process] = []
+
+    def Process(self, *args: Any, **keywords: Any) -> _Process:  # type: ignore[override]
+        """One more."""
+        made = _Process(*args, **keywords)
+        self._made.append(made)
+        return made
+
+    def kill(self) -> None:
+        """End them, wherever they are: jobs only compute, so that there is nothing to take back.
+
+        Not by a signal that Python answers: that would print where it met them, imports included.
+        """
+        for process in self._made:
+            if process.is_alive():
+                process.kill()
 
 
 @contextmanager
@@ -161,6 +184,30 @@ def _no_interrupts() -> Iterator[None]:
         yield
     finally:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+@contextmanager
+def _signals_later() -> Iterator[None]:
+    """Hold back whatever signal would end the caller: half a process cannot be ended in order.
+
+    A blocked one is not enough: another thread may take it, and the main one is told all the same.
+    """
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    heard: list[int] = []
+    before = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
+    # None: set by other than Python, which could not put it back
+    mine = {number: handler for number, handler in before.items() if handler is not None}
+    for number in mine:
+        signal.signal(number, lambda number, _: heard.append(number))
+    try:
+        yield
+    finally:
+        for number, handler in mine.items():
+            signal.signal(number, handler)
+        if heard:
+            signal.raise_signal(heard[0])
 
 
 def _follow_parent() -> None:
