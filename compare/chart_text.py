@@ -3,11 +3,11 @@
 from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
-from rich import box
 from rich.table import Table
 
 from compare.charts.compute import CHECKS
 from compare.charts.result import Chart
+from compare.console import bare_table
 from compare.edges.instabilities import Instability
 from compare.edges.tongue import RANGE, TIP, UNSEEN
 from compare.edges.unnamed import Region
@@ -92,7 +92,7 @@ NARROW = 110
 
 def tongue_table(found: Sequence[Instability], other: str, width: int) -> Table:
     """The tongues, widest first; on a narrow terminal without types, tips and Hsu's values."""
-    table = Table(box=box.SIMPLE, pad_edge=False, padding=(0, 1, 0, 0))
+    table = bare_table()
     damped = other == "gamma" and any(np.isfinite(i.critical_gamma) for i in found)
     columns: list[tuple[str, Callable[[Instability], float], int, bool]] = [
         ("tip at Omega", lambda i: i.tips[0][0] if i.tips else np.nan, 6, False),

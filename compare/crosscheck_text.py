@@ -9,11 +9,11 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from rich import box
 from rich.console import Console
 from rich.table import Table
 
 from compare.both_routes import CrossCheck, Method
+from compare.console import bare_table, say, show
 from compare.provenance import as_comment, in_words, provenance
 
 FORMATS = ("text", "json", "md", "csv")
@@ -76,26 +76,26 @@ def summary(subject: Subject, x: CrossCheck) -> tuple[str, str]:
 def text(subject: Subject, x: CrossCheck, console: Console) -> None:
     """Print everything, at 80 columns too."""
     first, second = summary(subject, x)
-    console.print(first, style=STYLES[x.verdict], highlight=False)
-    console.print(second, style="" if x.routes_agree else "bold red", highlight=False)
+    say(console, first, STYLES[x.verdict])
+    say(console, second, "" if x.routes_agree else "bold red")
     for who, remark in _remarks(x):
-        console.print(f"{who}: {remark}.", style="yellow", highlight=False)
+        say(console, f"{who}: {remark}.", "yellow")
     console.print()
     for title, words in _facts(subject):
-        console.print(f"{title}: {words}", highlight=False)
+        say(console, f"{title}: {words}")
     console.print()
     table = _table("", "hill", "floquet")
     for name, left, right in _compared(x):
         table.add_row(name, left, right)
-    console.print(table)
+    show(console, table)
     console.print()
     table = _table("multiplier", "modulus", "phase/pi")
     for mu in x.floquet.multipliers:
         phase = float(np.angle(mu)) / np.pi
         table.add_row(_complex(complex(mu)), f"{abs(mu):.9f}", f"{phase:+.6f}")
-    console.print(table)
+    show(console, table)
     console.print()
-    console.print(_made(subject), style="dim", highlight=False)
+    say(console, _made(subject), "dim")
 
 
 def as_dict(subject: Subject, x: CrossCheck) -> dict[str, Any]:
@@ -213,7 +213,7 @@ def _variable(x: CrossCheck) -> str:
 
 
 def _table(*heads: str) -> Table:
-    table = Table(box=box.SIMPLE_HEAD, pad_edge=False, show_edge=False, padding=(0, 2, 0, 0))
+    table = bare_table(gap=2)
     for k, head in enumerate(heads):
         table.add_column(head, justify="right" if k else "left", no_wrap=True)
     return table

@@ -11,8 +11,8 @@ from typing import Any
 
 SCHEMA = 1
 UNITS = (
-    "the system's own: Omega, eta and T in its unit of frequency; gamma, z and P pure numbers; of "
-    "the report's beams frequencies over omega_1, T0 over E I/l^2 (4.4.12)"
+    "Omega, eta and T in the system's own unit of frequency (the report's beams: omega_1; T0 in "
+    "E I/l^2); gamma, z and P pure numbers"
 )
 
 

@@ -6,11 +6,10 @@ import json
 from collections.abc import Callable
 from typing import Any
 
-from rich import box
 from rich.console import Console
-from rich.table import Table
 from rich.text import Text
 
+from compare.console import bare_table, say, show
 from compare.provenance import as_comment, in_words
 from compare.verification import Report
 
@@ -33,13 +32,7 @@ def text(report: Report, which: str = "all", *, console: Console) -> None:
     """Print the table and what was found; colour is the console's business."""
     rendering = report.publication.rendering
     kept = [console.width >= column.width for column in rendering.columns]
-    table = Table(
-        box=box.SIMPLE_HEAD,
-        pad_edge=False,
-        show_edge=False,
-        header_style="bold",
-        padding=(0, 1, 0, 0),
-    )
+    table = bare_table()
     for column, keep in zip(rendering.columns, kept, strict=True):
         if keep:
             table.add_column(column.name, justify="left" if column.words else "right", no_wrap=True)
@@ -51,17 +44,17 @@ def text(report: Report, which: str = "all", *, console: Console) -> None:
                 cells.append(Text(words, style=cell.style) if cell.style else words)
         table.add_row(*cells)
     if table.row_count:
-        console.print(table)
+        show(console, table)
         console.print()
     more = _more_lines(report, which)
     for line in more:
-        console.print(line, highlight=False, soft_wrap=True)
+        say(console, line, whole=True)
     if more:
         console.print()
-    console.print(in_words(report.about), style="dim", highlight=False)
+    say(console, in_words(report.about), "dim")
     console.print()
     for line in report.summary.lines:
-        console.print(line, style="bold" if report.ok else "bold red", soft_wrap=True)
+        say(console, line, "bold" if report.ok else "bold red", whole=True)
 
 
 def as_json(report: Report, which: str = "all") -> str:

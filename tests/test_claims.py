@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from commands import refusal
+from rich.console import Console
 from scipy.integrate import solve_ivp
 
 import compare.commands.claims as command
@@ -280,7 +281,7 @@ def test_text_fits_80_columns(
     capsys: pytest.CaptureFixture[str],
     judged: dict[str, JudgedClaim],
 ) -> None:
-    monkeypatch.setattr(command, "terminal", lambda: command.Console(width=80))
+    monkeypatch.setattr(command, "terminal", lambda: Console(width=80))
     monkeypatch.setattr(command, "judge", lambda *_, **__: tuple(judged.values()))
     for words in ([], IDS):
         assert main(["claims", *words]) == 0

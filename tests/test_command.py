@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 from commands import csv_lines, refusal
+from rich.console import Console
 
 import compare.commands.rows as rows_command
 from compare import verification_text as render
@@ -65,7 +66,7 @@ def test_a_flipped_verdict_is_loud(report: Report) -> None:
 def test_text_fits_the_terminal(
     width: int, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(rows_command, "terminal", lambda: rows_command.Console(width=width))
+    monkeypatch.setattr(rows_command, "terminal", lambda: Console(width=width))
     assert main(["--row", "T1-27", "--row", "T1-07"]) == 0
     lines = capsys.readouterr().out.splitlines()
     table = [line for line in lines if line.startswith(("row", "T1-"))]

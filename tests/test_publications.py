@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from commands import csv_lines, refusal
+from rich.console import Console
 from scipy.linalg import eigh_tridiagonal
 
 from compare import both_routes, publications, verify
@@ -213,7 +214,7 @@ def test_the_table_fits_the_terminal(
     width: int, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     command = pytest.importorskip("compare.commands.rows")
-    monkeypatch.setattr(command, "terminal", lambda: command.Console(width=width))
+    monkeypatch.setattr(command, "terminal", lambda: Console(width=width))
     assert main(["--publication", "mathieu", "--row", "a10-q10"]) == 0
     table = capsys.readouterr().out.splitlines()[:3]
     assert all(len(line) <= width for line in table)

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from commands import refusal
 from flint import arb, ctx
+from rich.console import Console
 from systems import SPECIAL, random_system
 
 import compare.commands.sensitivity as command
@@ -388,7 +389,7 @@ def test_json_is_the_library(capsys: pytest.CaptureFixture[str]) -> None:
 def test_text_fits_and_says_what_moves_T(
     width: int, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(command, "terminal", lambda: command.Console(width=width))
+    monkeypatch.setattr(command, "terminal", lambda: Console(width=width))
     assert (
         main(["sensitivity", "--beam", "stepped", "--set", "omega_L=9", "--set", "eta=0.01"]) == 0
     )

@@ -15,6 +15,7 @@ from compare.charts.nodes import ROUTES
 from compare.charts.result import Chart
 from compare.commands import asked
 from compare.commands.terminal import stages, terminal
+from compare.console import say, show
 from compare.edges.curves import Curve, boundaries
 from compare.edges.instabilities import Instability, instabilities
 from compare.edges.interpolated import axes_of
@@ -26,20 +27,23 @@ from compare.output import check_apart, check_writable, write_whole
 from compare.report.tables import all_rows
 from hill import UniformBeam, checks
 
-SUMMARY = "chart the characteristic argument T over two parameters or more"
+SUMMARY = "chart the argument T over two parameters or more"
 EPILOG = """\
 examples:
   verify chart --x Omega 0.35 6 1000 --y gamma 0 0.5 1000 --output chart.png
-  verify chart --x Omega 1.7 1.95 500 --y T0 0 25 500 --set gamma=0.1 --output chart.svg
-  verify chart --x Omega 0.35 6 1000 --y gamma 0 0.5 1000 --set eta=0.01 --tongues tongues.csv
+  verify chart --x Omega 1.7 1.95 500 --y T0 0 25 500 --set gamma=0.1 \\
+    --output chart.svg
+  verify chart --x Omega 0.35 6 1000 --y gamma 0 0.5 1000 --set eta=0.01 \\
+    --tongues tongues.csv
   verify chart mine.toml --workers 2 --resume nodes.dat --output chart.npz
 
-A chart of Omega and one other parameter has tongues: --tongues lists them, and a picture draws
-and lists them. On a picture of two others the boundaries are drawn.
+A chart of Omega and one other parameter has tongues: --tongues lists them, and
+a picture draws and lists them. On a picture of two others the boundaries are
+drawn.
 
-Without a file the system is the report's beam (Table 1, or Table 2 with --beam stepped) but for
-what --set changes. A file is the one that `verify system` takes, of anybody's system, and may have
-the axes too:
+Without a file the system is the report's beam (Table 1, or Table 2 with --beam
+stepped) but for what --set changes. A file is the one that `verify system`
+takes, of anybody's system, and may have the axes too:
 
   kind = "matrices"
   [system]
@@ -58,7 +62,8 @@ the axes too:
   high = 0.5
   count = 1000
 
-exit status: 0 done; 1 the routes disagree beyond the chart's error; 2 wrong usage or input."""
+exit status: 0 done; 1 the routes disagree beyond the chart's error; 2 wrong
+usage or input."""
 
 PICTURES = (".png", ".svg")
 SUFFIXES = (*PICTURES, ".npz", ".json", ".csv")
@@ -128,13 +133,14 @@ def run(options: argparse.Namespace) -> int:
         if options.tongues is not None:
             other = axes_of(result)[1].name
             write_whole(options.tongues, chart_files.tongues_csv(result, found, other))
-    lines = [*describe(result), *map(told, nameless)]
+    lines, console = [*describe(result), *map(told, nameless)], terminal()
     if found:
-        other, console = axes_of(result)[1].name, terminal()
-        console.print(tongue_table(found, other, console.width))
+        other = axes_of(result)[1].name
+        show(console, tongue_table(found, other, console.width))
+        console.print()
         lines += ended(found, other)
     for line in lines:
-        print(line)
+        say(console, line, whole=True)
     return int(not result.routes_agree)
 
 

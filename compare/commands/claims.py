@@ -1,19 +1,17 @@
 """``verify claims``: the report's conclusions, each with its numbers and a verdict."""
 
 import argparse
-import io
 import sys
 from collections.abc import Iterable
 from pathlib import Path
 
-from rich import box
 from rich.console import Console
 from rich.padding import Padding
-from rich.table import Table
 from rich.text import Text
 
-from compare.commands.terminal import progress, terminal
-from compare.output import check_writable, write_whole
+from compare.commands.terminal import deliver, progress, terminal
+from compare.console import as_file, bare_table, say
+from compare.output import check_writable
 from compare.provenance import in_words
 from compare.report.claims import page
 from compare.report.claims.both_routes import RoutesDisagree
@@ -21,11 +19,12 @@ from compare.report.claims.finding import VERDICTS
 from compare.report.claims.run import JudgedClaim, judge, select
 
 STYLES = {"confirmed": "green", "qualified": "yellow", "refuted": "red"}
-SUMMARY = "go through the report's conclusions, each with numbers by both routes and a verdict"
+SUMMARY = "the report's conclusions, each with numbers and a verdict"
 EPILOG = """\
 examples:
   verify claims                       every conclusion, one line each
-  verify claims gap half-circles      these two, with their numbers and the rule of the verdict
+  verify claims gap half-circles      these two, with their numbers and the rule
+                                      of the verdict
   verify claims --verdict refuted     only those that do not hold
   verify claims --format md           all numbers, as in docs/claims.md
 
@@ -34,8 +33,8 @@ verdicts, which follow from the numbers by a rule stated with each claim:
   qualified   it holds with a restriction that the report does not make
   refuted     it does not hold
 
-exit status: 0 the routes agree on every number and every verdict is the one on record; 1 they do
-not; 2 wrong usage or input."""
+exit status: 0 the routes agree on every number and every verdict is the one on
+record; 1 they do not; 2 wrong usage or input."""
 
 
 def configure(p: argparse.ArgumentParser) -> None:
@@ -66,11 +65,8 @@ def run(options: argparse.Namespace) -> int:
     content = _content(judged, options)
     if content is None:
         print_text(_shown(judged, options), judged, details=bool(options.claim), console=terminal())
-    elif options.output is None:
-        sys.stdout.write(content)
-        sys.stdout.flush()
     else:
-        write_whole(options.output, content)
+        deliver(content, options.output)
     return 0 if all(one.as_expected for one in judged) else 1
 
 
@@ -92,10 +88,8 @@ def _content(judged: tuple[JudgedClaim, ...], options: argparse.Namespace) -> st
         return page.markdown(shown)
     if options.output is None:
         return None
-    buffer = io.StringIO()
-    console = Console(file=buffer, width=100)
-    print_text(shown, judged, details=bool(options.claim), console=console)
-    return buffer.getvalue()
+    details = bool(options.claim)
+    return as_file(lambda c: print_text(shown, judged, details=details, console=c))
 
 
 def print_text(
@@ -103,7 +97,7 @@ def print_text(
 ) -> None:
     """Print a table, with the numbers of each claim if asked, and the two lines."""
     listed = tuple(shown)
-    table = Table(box=box.SIMPLE_HEAD, pad_edge=False, show_edge=False, padding=(0, 1, 0, 0))
+    table = bare_table()
     table.add_column("claim", no_wrap=True)
     table.add_column("section")
     table.add_column("verdict", no_wrap=True)
@@ -115,10 +109,10 @@ def print_text(
         console.print()
     for one in listed if details else ():
         _details(one, console)
-    console.print(in_words(page.ABOUT), style="dim", highlight=False)
+    say(console, in_words(page.ABOUT), "dim")
     console.print()
     for line in page.summary(judged):
-        console.print(line, style="bold", soft_wrap=True)
+        say(console, line, "bold", whole=True)
 
 
 def _verdict(one: JudgedClaim) -> Text:
@@ -131,7 +125,7 @@ def _details(one: JudgedClaim, console: Console) -> None:
     console.print(Padding(Text(one.claim.claim, style="italic"), (0, 2)))
     console.print(Padding(Text(one.finding.because), (0, 2)))
     console.print(Padding(Text(f"Rule: {one.claim.rule}", style="dim"), (0, 2)))
-    table = Table(box=box.SIMPLE_HEAD, pad_edge=False, show_edge=False, padding=(0, 1, 0, 0))
+    table = bare_table()
     table.add_column("number")
     for route in ("Hill", "Floquet"):
         table.add_column(route, justify="right", no_wrap=True)

@@ -16,9 +16,9 @@ FORMATS = ("png", "svg", "csv")
 SUMMARY = "draw the report's figures, 3 to 29, from both routes"
 EPILOG = """\
 examples:
-  verify figures                       every figure, PNG, SVG and CSV, into ./figures
-  verify figures 8 17 --output plots   two of them
-  verify figures 27 --format csv       the data behind one
+  verify figures                      every figure, into ./figures
+  verify figures 8 17 --output plots  two of them
+  verify figures 27 --format csv      the data behind one
 
 figures:
   3-7             natural frequencies under thrust
@@ -28,8 +28,9 @@ figures:
   15, 16, 24, 25  regions with damping
   26, 27, 29      longitudinal compliance
 
-Curves are one route's, circles the other's, diamonds printed; the caption has the largest
-disagreement of the routes and what was assumed. PNG and SVG need the extra: plot.
+Curves are one route's, circles the other's, diamonds printed; the caption has
+the largest disagreement of the routes and what was assumed. PNG and SVG need
+the extra: plot.
 
 exit status: 0 done; 2 wrong usage or input."""
 

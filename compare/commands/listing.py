@@ -7,8 +7,8 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
-from compare.commands.terminal import progress
-from compare.output import check_writable, write_whole
+from compare.commands.terminal import deliver, progress
+from compare.output import check_writable
 from compare.provenance import as_comment
 from compare.report.program.cards import Cards, from_file, shipped
 from compare.report.program.collate import (
@@ -25,26 +25,28 @@ from compare.report.program.driver import FrequencyLine, Note, ResonanceHeading,
 from compare.report.program.evaluators import EVALUATORS, Evaluator
 from compare.report.program.formats import lines
 
-SUMMARY = "read a data deck of the report's programs and print what they print"
+SUMMARY = "a data deck of the report's programs in, their output out"
 EPILOG = """\
 examples:
-  verify listing uniform                        the report's deck, as the 7094 ran it
-  verify listing stepped --route hill           the same, by the converged determinant
+  verify listing uniform                 the report's deck, as the 7094 ran it
+  verify listing stepped --route hill    the same, by the converged determinant
   verify listing uniform --deck mine.txt --output mine.lst
-  verify listing uniform --compare              what differs from the printed output, and why
+  verify listing uniform --compare       what differs from the printed output
 
-A deck has the card images that DRIVER reads, in the same columns (appendix B-5 and B-6). FORMAT 1
-is natural frequencies against thrust (NAT = 1), 2 the stability at each parametric resonance
-(ITR = 0), 3 the search of SWITCH around it (ITR = 1).
+A deck has the card images that DRIVER reads, in the same columns (appendix B-5
+and B-6). FORMAT 1 is natural frequencies against thrust (NAT = 1), 2 the
+stability at each parametric resonance (ITR = 0), 3 the search of SWITCH around
+it (ITR = 1).
 
 routes:
   as-run   the report's program: its constants, truncation and slips
   hill     the beam's exact constants and the determinant with its tail summed
   floquet  matrices by quadrature and the monodromy matrix
 
-exit status: 0 done; 1 where a resonance could not be computed, which its line says, or, with
---compare, where a line differs that is not in the list of known differences (it holds for the
-report's deck as run); 2 wrong usage or input, such as a malformed card, named with its columns."""
+exit status: 0 done; 1 where a resonance could not be computed, which its line
+says, or, with --compare, where a line differs that is not in the list of known
+differences (it holds for the report's deck as run); 2 wrong usage or input,
+such as a malformed card, named with its columns."""
 
 STATES: dict[State, str] = {
     "same": "to the last character",
@@ -81,13 +83,9 @@ def run(options: argparse.Namespace) -> int:
         judged = collate(printed_output(deck.program), written)
         written, known = report(deck.program, judged)
         status = 0 if known and not failed else 1
-    content = "\n".join(written) + "\n"
-    if options.output is None:
-        # the terminal has the report's output to the last character
-        sys.stdout.write(content)
-        sys.stdout.flush()
-    else:
-        write_whole(options.output, content + as_comment(_about(cards, options)))
+    # the terminal has the report's output to the last character
+    made = "" if options.output is None else as_comment(_about(cards, options))
+    deliver("\n".join(written) + "\n" + made, options.output)
     if failed:
         print(f"verify listing: not computed: {failed} of the resonances", file=sys.stderr)
     return status

@@ -1,15 +1,12 @@
 """``verify``: every printed row of the report's tables, by both routes."""
 
 import argparse
-import io
-import sys
 from pathlib import Path
 
-from rich.console import Console
-
 from compare import publications
-from compare.commands.terminal import progress, terminal
-from compare.output import check_writable, write_whole
+from compare.commands.terminal import WIDE, deliver, progress, terminal
+from compare.console import as_file
+from compare.output import check_writable
 from compare.verification import METHODS, Report, check_more_terms, verify
 from compare.verification_text import FORMATS, SHOWN, WRITERS, text
 
@@ -20,24 +17,35 @@ examples:
   verify --show differs               only the rows that differ from print
   verify --row T1-07 --row T3-02      single rows; T3-02 is both of its columns
   verify --format md --output t1.md --table 1
-  verify --method cvodes --workers 2  SUNDIALS as the witness, on two processes
-  verify --table 3 --more-terms       beside the five terms that are printed, eight and the limit
-  verify --publication mathieu        another paper: Mathieu's characteristic values
+  verify --method cvodes --workers 2  SUNDIALS as the witness, two processes
+  verify --table 3 --more-terms       beside the five terms that are printed,
+                                      eight and the limit
+  verify --publication mathieu        another paper: Mathieu's characteristic
+                                      values
 
 columns of the report:
-  T printed   the report's characteristic argument, twice the growth exponent; 0 is stable
-  T as run    the report's program, truncation and slips included, at the Omega it was run at
-  T Hill      the determinant with its tail summed;  T Floquet  the monodromy matrix
-  |dP|        largest difference between the coefficients of the two characteristic polynomials;
-  bound       the sum of the two error bounds, which |dP| must not exceed
-  cause       why print differs: agrees, truncation, listing-slip, misprint (and what its
-              corrected cell is), unexplained
+  T printed  the report's characteristic argument, twice the growth exponent;
+             0 is stable
+  as run     the report's program, truncation and slips included, at the Omega
+             it was run at
+  Hill       the determinant with its tail summed
+  Floquet    the monodromy matrix
+  T +-       the larger of the two routes' bounds on the error of their T
+  |dP|       largest difference between the coefficients of the two
+             characteristic polynomials
+  bound      the sum of the two error bounds of P, which |dP| must not exceed
+  cause      why print differs: agrees, truncation, listing-slip, misprint (and
+             what its corrected cell is), unexplained
+A narrow terminal leaves out |dP|, bound and the Omega that was run at. JSON and
+CSV have every digit, and of each route T_error, which bounds T's error, and
+error, which bounds P's.
 
-columns of mathieu: P(1) or P(-1) at the printed value by both routes, the bound on it, and which
-routes show it to change its sign within half a unit of the last digit.
+columns of mathieu: P(1) or P(-1) at the printed value by both routes, the
+bound on it, and which routes show it to change its sign within half a unit of
+the last digit.
 
-exit status: 0 the routes agree on every row and every difference from print has its known cause;
-1 they do not; 2 wrong usage or input."""
+exit status: 0 the routes agree on every row and every difference from print
+has its known cause; 1 they do not; 2 wrong usage or input."""
 
 
 def configure(p: argparse.ArgumentParser) -> None:
@@ -133,11 +141,5 @@ def _write(report: Report, options: argparse.Namespace) -> None:
         text(report, options.show, console=terminal())
         return
     else:
-        buffer = io.StringIO()
-        text(report, options.show, console=Console(file=buffer, width=140))
-        content = buffer.getvalue()
-    if options.output is None:
-        sys.stdout.write(content)
-        sys.stdout.flush()
-    else:
-        write_whole(options.output, content)
+        content = as_file(lambda console: text(report, options.show, console=console), WIDE)
+    deliver(content, options.output)

@@ -1,22 +1,19 @@
 """``verify sensitivity``: how T moves with every parameter of a system."""
 
 import argparse
-import io
 import json
-import sys
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from rich import box
 from rich.console import Console
-from rich.table import Table
 
 from compare.charts.identity import known_values, type_name
 from compare.charts.limits import checked
 from compare.commands import asked
-from compare.commands.terminal import terminal, working
-from compare.output import check_writable, write_whole
+from compare.commands.terminal import deliver, terminal, working
+from compare.console import as_file, bare_table, say
+from compare.output import check_writable
 from compare.provenance import in_words, provenance
 from compare.system_file import Described
 from floquet import SystemSensitivities, system_sensitivities
@@ -24,7 +21,7 @@ from hill import System
 from hill.averaging import Resonance
 from hill.system import natural_frequencies
 
-SUMMARY = "how the characteristic argument T moves with every parameter"
+SUMMARY = "how the argument T moves with every parameter"
 EPILOG = """\
 examples:
   verify sensitivity
@@ -32,10 +29,11 @@ examples:
   verify sensitivity --set omega_L=10 --set g=0.02 --format json
   verify sensitivity mine.toml --set gamma=0.2
 
-Without a file the system is the report's beam (Table 1, or Table 2 with --beam stepped) but for
-what --set changes; gamma is 0.1 and Omega the beam's own omega_(B) + omega_(1) where they are not
-set. A file is the one that `verify system` takes. The derivatives come from automatic
-differentiation of the integration over one period, and each has an error bound. JSON has those of z
+Without a file the system is the report's beam (Table 1, or Table 2 with --beam
+stepped) but for what --set changes; gamma is 0.1 and Omega the beam's own
+omega_(B) + omega_(1) where they are not set. A file is the one that `verify
+system` takes. The derivatives come from automatic differentiation of the
+integration over one period, and each has an error bound. JSON has those of z
 too.
 
 exit status: 0 done; 2 wrong usage or input, or T has no derivative there."""
@@ -72,27 +70,21 @@ def run(options: argparse.Namespace) -> int:
         found = system_sensitivities(wanted.system, **forcing)
     suffix = options.output.suffix[1:] if options.output else ""
     if (options.format or suffix) == "json":
-        _write(json.dumps(content(wanted, found), indent=2) + "\n", options.output)
+        deliver(json.dumps(content(wanted, found), indent=2) + "\n", options.output)
     elif options.output is None:
         show(wanted, found, terminal())
     else:
-        buffer = io.StringIO()
-        show(wanted, found, Console(file=buffer, width=100))
-        write_whole(options.output, buffer.getvalue())
+        deliver(as_file(lambda console: show(wanted, found, console)), options.output)
     return 0
 
 
 def show(wanted: Described, found: SystemSensitivities, console: Console) -> None:
     """Print where, what T is, and a line for each parameter."""
-    title = wanted.title
+    title, T = wanted.title, round(found.T, 6) + 0.0
     at = ", ".join(f"{name} = {found.values[name]:.7g}" for name in ("Omega", "gamma", "eta"))
-    console.print(
-        f"{title[:1].upper()}{title[1:]} at {at}: T = {round(found.T, 6) + 0.0:.6f}",
-        style="bold",
-        highlight=False,
-    )
+    say(console, f"{title[:1].upper()}{title[1:]} at {at}: T = {T:.6f}", "bold")
     console.print()
-    table = Table(box=box.SIMPLE_HEAD, pad_edge=False, show_edge=False, padding=(0, 2, 0, 0))
+    table = bare_table(gap=2)
     table.add_column("parameter p", no_wrap=True)
     for name in ("value", "dT/dp", "known to", "p + 1%: T moves by"):
         table.add_column(name, justify="right", no_wrap=True)
@@ -104,12 +96,12 @@ def show(wanted: Described, found: SystemSensitivities, console: Console) -> Non
     console.print(table)
     if not any(slope for name, slope in found.dT.items() if name != "eta"):
         console.print()
-        console.print("Stable, and not on a boundary: T = -eta, and nothing else moves it.")
+        say(console, "Stable, and not on a boundary: T = -eta, and nothing else moves it.")
     if found.shared_matrices:
         console.print()
-        console.print("The matrices are the system's own; the time domain has no others for it.")
+        say(console, "The matrices are the system's own; the time domain has no others for it.")
     console.print()
-    console.print(in_words(_about(wanted, found)), style="dim", highlight=False)
+    say(console, in_words(_about(wanted, found)), "dim")
 
 
 def content(wanted: Described, found: SystemSensitivities) -> dict[str, Any]:
@@ -159,11 +151,3 @@ def _signed(value: float, error: float = 0.0) -> str:
 
 def _pairs(values: Any) -> list[list[float]]:
     return [[float(z.real), float(z.imag)] for z in np.asarray(values, complex)]
-
-
-def _write(text: str, path: Path | None) -> None:
-    if path is None:
-        sys.stdout.write(text)
-        sys.stdout.flush()
-    else:
-        write_whole(path, text)

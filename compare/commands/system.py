@@ -1,19 +1,16 @@
 """``verify system``: any system from a file, by both routes."""
 
 import argparse
-import io
-import sys
 from pathlib import Path
-
-from rich.console import Console
 
 from compare import system_file
 from compare.both_routes import crosscheck
 from compare.charts.identity import known_values, type_name
 from compare.commands.asked import settings
-from compare.commands.terminal import terminal, working
+from compare.commands.terminal import deliver, terminal, working
+from compare.console import as_file
 from compare.crosscheck_text import FORMATS, WRITERS, Subject, text
-from compare.output import check_writable, write_whole
+from compare.output import check_writable
 from hill.system import frequency_names, natural_frequencies, parameter_values
 
 SUMMARY = "cross-check a system of one's own, given in a file"
@@ -33,18 +30,20 @@ mine.toml, in its simplest form:
   gamma = 0.15
   Omega = 2.0
 
-F, G and a mass matrix M may be files: "mine.npz:F", "mine.mat:F", "mine.mtx". A term
-F_terms.name = [[...]] (or G_terms.name) makes a parameter `name` of which F gains so much; its
-value is values.name.
+F, G and a mass matrix M may be files: "mine.npz:F", "mine.mat:F", "mine.mtx".
+A term F_terms.name = [[...]] (or G_terms.name) makes a parameter `name` of
+which F gains so much; its value is values.name.
 
-In general form, M q'' + C q' + K q = 0 with harmonics (or A of x' = A x alone); gamma scales them
-all, and is 1 where it is not given:
+In general form, M q'' + C q' + K q = 0 with harmonics (or A of x' = A x
+alone); gamma scales them all, and is 1 where it is not given:
 
   kind = "matrices"
   [system]
   M = [[1.0, 0.0], [0.0, 2.0]]
   C = "mine.npz:C"
-  K = { mean = [[2.0, -1.0], [-1.0, 2.0]], cos.1 = "mine.npz:K1", sin.2 = [[0.1, 0.0], [0.0, 0.0]] }
+  K.mean = [[2.0, -1.0], [-1.0, 2.0]]
+  K.cos.1 = "mine.npz:K1"
+  K.sin.2 = [[0.1, 0.0], [0.0, 0.0]]
   [forcing]
   Omega = 2.0
 
@@ -109,12 +108,6 @@ def run(options: argparse.Namespace) -> int:
         text(subject, result, terminal())
         return int(not result.routes_agree)
     else:
-        buffer = io.StringIO()
-        text(subject, result, Console(file=buffer, width=100))
-        content = buffer.getvalue()
-    if options.output is None:
-        sys.stdout.write(content)
-        sys.stdout.flush()
-    else:
-        write_whole(options.output, content)
+        content = as_file(lambda console: text(subject, result, console))
+    deliver(content, options.output)
     return int(not result.routes_agree)

@@ -1,18 +1,23 @@
 """What the commands share at the terminal: its width, and a bar on the standard error."""
 
+import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from pathlib import Path
 
 from rich.console import Console
 from rich.progress import (
     BarColumn,
     MofNCompleteColumn,
     Progress,
+    ProgressColumn,
     SpinnerColumn,
     TextColumn,
     TimeElapsedColumn,
     TimeRemainingColumn,
 )
+
+from compare.output import write_whole
 
 WIDE = 140
 """Columns where there is no terminal to ask."""
@@ -28,25 +33,42 @@ class _Output(Console):
 
 def terminal() -> Console:
     """The standard output: as wide as it is, or wide enough for everything."""
-    console = _Output()
-    return console if console.is_terminal else _Output(width=WIDE)
+    console = _Output(markup=False, emoji=False)
+    return console if console.is_terminal else _Output(width=WIDE, markup=False, emoji=False)
+
+
+def deliver(content: str, path: Path | None) -> None:
+    """To the standard output, or whole into a file."""
+    if path is not None:
+        write_whole(path, content)
+        return
+    sys.stdout.write(content)
+    sys.stdout.flush()
+
+
+@contextmanager
+def _bar(*columns: ProgressColumn) -> Iterator[Progress]:
+    """On the standard error, where that is a terminal; elsewhere nothing is written at all."""
+    console = Console(stderr=True)
+    bar = Progress(*columns, console=console, transient=True, disable=not console.is_terminal)
+    if bar.disable:
+        yield bar
+        return
+    try:
+        with bar:
+            yield bar
+    except BaseException:
+        # a signal may have met it half begun: the cursor back
+        bar.stop()
+        bar.console.show_cursor()
+        raise
 
 
 @contextmanager
 def progress(what: str, total: int) -> Iterator[Callable[[object], None]]:
     """A bar on the standard error, where that is a terminal; yields what moves it on by one."""
-    console = Console(stderr=True)
-    bar = Progress(
-        TextColumn(what),
-        BarColumn(),
-        MofNCompleteColumn(),
-        TimeRemainingColumn(),
-        console=console,
-        transient=True,
-        disable=not console.is_terminal,
-    )
-    task = bar.add_task(what, total=total)
-    with _running(bar):
+    with _bar(TextColumn(what), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn()) as bar:
+        task = bar.add_task(what, total=total)
         yield lambda _: bar.advance(task)
 
 
@@ -56,18 +78,13 @@ def stages() -> Iterator[Callable[[str, int, int], None]]:
 
     Of "thousandths of the range" the share is told beside the nodes.
     """
-    console = Console(stderr=True)
-    bar = Progress(
+    columns = (
         SpinnerColumn(),
         TextColumn("{task.description}"),
         BarColumn(),
         TextColumn("{task.fields[count]}"),
         TimeElapsedColumn(),
-        console=console,
-        transient=True,
-        disable=not console.is_terminal,
     )
-    task = bar.add_task("beginning", total=None, count="")
     share = ""
 
     def stage(what: str, done: int, total: int) -> None:
@@ -78,29 +95,14 @@ def stages() -> Iterator[Callable[[str, int, int], None]]:
         count = f"{done} of {total}" + (share if what == "nodes" else "") if total else ""
         bar.update(task, description=what, completed=done, total=total or None, count=count)
 
-    with _running(bar):
+    with _bar(*columns) as bar:
+        task = bar.add_task("beginning", total=None, count="")
         yield stage
 
 
 @contextmanager
 def working(what: str) -> Iterator[None]:
     """A line on the standard error, with the seconds, while there are no steps to count."""
-    console = Console(stderr=True)
-    columns = (SpinnerColumn(), TextColumn(what), TimeElapsedColumn())
-    bar = Progress(*columns, console=console, transient=True, disable=not console.is_terminal)
-    bar.add_task(what, total=None)
-    with _running(bar):
+    with _bar(SpinnerColumn(), TextColumn(what), TimeElapsedColumn()) as bar:
+        bar.add_task(what, total=None)
         yield
-
-
-@contextmanager
-def _running(bar: Progress) -> Iterator[None]:
-    """A bar while it is needed, and the cursor back, wherever a signal meets it."""
-    try:
-        with bar:
-            yield
-    except BaseException:
-        # it may have been met half begun
-        bar.stop()
-        bar.console.show_cursor()
-        raise

@@ -1,32 +1,30 @@
 """``verify vehicle``: what the thrust's pulsation does to one's own vehicle."""
 
 import argparse
-import io
 import math
-import sys
 from pathlib import Path
-
-from rich.console import Console
 
 from compare import system_file
 from compare.commands.asked import settings
-from compare.commands.terminal import stages, terminal
-from compare.output import check_writable, write_whole
+from compare.commands.terminal import deliver, stages, terminal
+from compare.console import as_file
+from compare.output import check_writable
 from compare.vehicle.study import CLOSELY, WITNESSED, study
 from compare.vehicle.write import as_json, markdown, text
 from hill import Vehicle, checks
 
-SUMMARY = "what pulsating thrust does to a vehicle of one's own, in hertz and seconds"
+SUMMARY = "what pulsating thrust does to a vehicle of one's own"
 EPILOG = """\
 examples:
   verify vehicle mine.toml
   verify vehicle mine.toml --range 2 40 --set gamma=0.2
   verify vehicle mine.toml --format json
 
-The first line says whether the vehicle is safe at the file's operating pulsation (forcing.Omega, in
-radians per unit of time), the second what the nearest danger is. Bands, growth and critical
-pulsation ratios come from Hill's matrix on the vehicle's exact modes; the column "both" has the
-verdict of the time domain on finite elements of the vehicle, where it agrees with them.
+The first line says whether the vehicle is safe at the file's operating
+pulsation (forcing.Omega, in radians per unit of time), the second what the
+nearest danger is. Bands, growth and critical pulsation ratios come from Hill's
+matrix on the vehicle's exact modes; the column "both" has the verdict of the
+time domain on finite elements of the vehicle, where it agrees with them.
 
 exit status: 0 the routes agree; 1 they do not; 2 wrong usage or input."""
 
@@ -106,12 +104,6 @@ def run(options: argparse.Namespace) -> int:
         text(found.title, result, terminal())
         return int(not result.routes_agree)
     else:
-        buffer = io.StringIO()
-        text(found.title, result, Console(file=buffer, width=120))
-        content = buffer.getvalue()
-    if options.output is None:
-        sys.stdout.write(content)
-        sys.stdout.flush()
-    else:
-        write_whole(options.output, content)
+        content = as_file(lambda console: text(found.title, result, console), 120)
+    deliver(content, options.output)
     return int(not result.routes_agree)

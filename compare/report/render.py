@@ -18,6 +18,7 @@ COLUMNS = (
     Column("as run"),
     Column("Hill"),
     Column("Floquet"),
+    Column("T +-"),
     Column("|dP|", width=96),
     Column("bound", width=112),
     Column("cause", words=True),
@@ -48,6 +49,7 @@ def cells(outcome: Outcome) -> tuple[Cell, ...]:
         Cell(decimal(outcome.as_run_T)),
         Cell(decimal(outcome.hill.T, outcome.hill.T_error)),
         Cell(decimal(outcome.floquet.T, outcome.floquet.T_error)),
+        Cell(f"{max(outcome.hill.T_error, outcome.floquet.T_error):.0e}"),
         Cell(f"{outcome.difference:.0e}", "" if outcome.routes_agree else LOUD),
         Cell(f"{outcome.hill.error + outcome.floquet.error:.0e}"),
         Cell(cause + corrected, STYLES[outcome.cause], short=cause),
@@ -120,7 +122,7 @@ def _pairs(z: Iterable[complex]) -> list[list[float]]:
 
 CSV_HEADER = (
     *("id", "table", "Omega_printed", "Omega", "Omega_from", "T_printed", "T_as_run"),
-    *(f"{route}_{what}" for route in ("hill", "floquet") for what in ("T", "error")),
+    *(f"{route}_{what}" for route in ("hill", "floquet") for what in ("T", "T_error", "error")),
     *("difference", "routes_agree", "cause", "verdict_printed", "verdict", "note"),
 )
 
@@ -130,7 +132,7 @@ def csv_line(o: Outcome) -> list[Any]:
     return [
         *(o.row.id, o.row.table, o.row.Omega_printed, o.row.Omega, o.row.Omega_from),
         *(o.row.T_printed, o.as_run_T),
-        *(x for route in (o.hill, o.floquet) for x in (route.T, route.error)),
+        *(x for route in (o.hill, o.floquet) for x in (route.T, route.T_error, route.error)),
         *(o.difference, o.routes_agree, o.cause, o.verdict_printed, o.verdict, o.note),
     ]
 

@@ -4,47 +4,53 @@ import json
 import math
 from typing import Any
 
-from rich import box
 from rich.console import Console
-from rich.table import Table
 
 from compare.charts.identity import known_values, type_name
+from compare.console import bare_table, say, show
 from compare.provenance import in_words, provenance
 from compare.vehicle.study import Row, Study
 from compare.vehicle.words import HEADS, cells, cycles, doubling, facts, moved, remarks, summary
 
 STYLES = {"stable": "bold green", "unstable": "bold red", "undecided": "bold yellow"}
 
+NARROW = 100
+"""Columns below which the table leaves out what the rest implies, and shortens its heads."""
+
+LEFT_OUT = {"type", "grows in"}
+SHORT = {"unstable from": "from", "doubles in": "doubles"}
+
 
 def text(title: str, study: Study, console: Console) -> None:
     """Print everything; on a narrow terminal without the types and the growth's time constants."""
     first, second = summary(title, study)
     style = STYLES[study.operating.verdict] if study.operating else "bold"
-    console.print(first, style=style, highlight=False)
-    console.print(second, highlight=False)
+    say(console, first, style)
+    say(console, second)
     console.print()
     for line in facts(study):
-        console.print(line, highlight=False)
+        say(console, line)
     console.print()
-    left = {"type", "grows in"} if console.width < 100 else set()
-    shown = [k for k, head in enumerate(HEADS) if head not in left]
-    table = Table(box=box.SIMPLE_HEAD, pad_edge=False, show_edge=False, padding=(0, 1, 0, 0))
+    narrow = console.width < NARROW
+    shown = [k for k, head in enumerate(HEADS) if not (narrow and head in LEFT_OUT)]
+    table = bare_table()
     for k in shown:
-        table.add_column(HEADS[k], justify="right" if k > 1 else "left")
+        head = SHORT.get(HEADS[k], HEADS[k]) if narrow else HEADS[k]
+        table.add_column(head, justify="right" if k > 1 else "left", no_wrap=True)
     for row in study.rows:
         table.add_row(*(cells(row)[k] for k in shown))
-    console.print(table)
+    show(console, table)
     told = [row for row in study.rows if row.effects]
     if told:
         console.print()
-        console.print("What T moves by with 1% more of the numbers that matter most:")
+        say(console, "What T moves by with 1% more of the numbers that matter most:")
         for row in told:
-            console.print(moved(row), highlight=False)
+            say(console, moved(row))
     console.print()
     for line in remarks(study):
-        console.print(line, highlight=False)
+        say(console, line)
     console.print()
-    console.print(in_words(_about(study)), style="dim", highlight=False)
+    say(console, in_words(_about(study)), "dim")
 
 
 def markdown(title: str, study: Study) -> str:
