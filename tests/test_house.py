@@ -165,6 +165,7 @@ def may_print(name: str) -> bool:
         name in ("compare/__main__.py", "compare/report/recover.py")
         or name.startswith(
             (
+                "compare/console",
                 "compare/verification_text",
                 "compare/crosscheck_text",
                 "compare/vehicle/write",
