@@ -9,6 +9,7 @@ import pytest
 from numpy import cos, cosh, sin, sinh
 from scipy.optimize import brentq, minimize_scalar
 from scipy.special import jv
+from vehicles import random_vehicle
 
 from hill import (
     Convergence,
@@ -17,11 +18,15 @@ from hill import (
     Section,
     Sensor,
     Thrust,
+    UniformBeam,
     Vehicle,
     critical_thrust,
     with_more_modes,
 )
 from hill.vehicle.convergence import extrapolated
+from hill.vehicle.critical import Mean, _first
+from hill.vehicle.discs import Moved
+from hill.vehicle.matrices import structure
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 ONE = Section(1.0, 1.0, 1.0)
@@ -50,6 +55,19 @@ def test_inertial_buckling() -> None:
         assert found.modes == (4, 6, 8, 10, 12, 14)
         assert abs(found.limit - exact) <= found.error < 2e-3 * exact
         assert found.apart(4) == pytest.approx(25.840858 / found.limit - 1.0, abs=1e-6)
+
+
+def test_the_report_s_buckling() -> None:
+    """Appendix A's first vehicle against the singular F of its own closed forms."""
+
+    def determinant(T0: float) -> float:
+        beam = UniformBeam(T0=T0, K_theta=0.5, xi_G=0.5, modes=2)
+        return float(np.linalg.det(beam.equation(Omega=1.0, gamma=0.0).F))
+
+    exact = brentq(determinant, 20.0, 30.0, xtol=1e-14) * 1.360644e14 / 4800.0**2
+    found = critical_thrust(Vehicle.from_file(EXAMPLES / "uniform.toml"))
+    assert found.thrust == pytest.approx(exact, rel=1e-11)
+    assert found.resolution < 1e-4 * exact
 
 
 def test_flutter_of_a_free_beam() -> None:
@@ -188,6 +206,77 @@ def test_exact_before_and_behind() -> None:
         at = replace(v, thrust=Thrust(share * found.thrust)).natural_frequencies()
         assert np.isrealobj(at) == real
     assert critical_thrust(v, most=0.9 * found.thrust).kind == "none"
+
+
+@pytest.mark.parametrize("coupling", [1e-1, 1e-3, 1e-5])
+def test_a_narrow_pocket_is_found(coupling: float) -> None:
+    """Two frequencies that pass each other and flutter while they do, between T of 1 -+ 2c."""
+    pull = np.array([[1.0, coupling], [-coupling, 0.0]])
+    nothing = np.zeros((2, 2))
+    mean = Mean(np.diag([1.0, 2.0]), nothing, pull, nothing, None, 0.0)
+    found, gap = _first(mean, 80.0, 1e-6)
+    # (1 - T)^2 = 4 c^2 T^2
+    assert found == pytest.approx(1.0 / (1.0 + 2.0 * coupling), rel=1e-6)
+    assert gap < 1e-4
+    assert mean.grows(1.0) > 0.0
+    assert not mean.unstable(1.0 / (1.0 - 2.0 * coupling) + 1e-9)
+
+
+def test_what_is_narrower_is_said() -> None:
+    """A pocket of 4e-9 is not seen, and the gap that is told of is as wide."""
+    pull = np.array([[1.0, 1e-9], [-1e-9, 0.0]])
+    nothing = np.zeros((2, 2))
+    mean = Mean(np.diag([1.0, 2.0]), nothing, pull, nothing, None, 0.0)
+    found, gap = _first(mean, 2.0, 1e-6)
+    assert found is None or found == pytest.approx(1.0, abs=1e-8)
+    assert 4e-9 < gap < 1e-4
+
+
+def test_a_rotation_that_only_its_damping_slows() -> None:
+    """It stays where it is: neither safe nor unsafe, as without damping."""
+    for ends in (("pinned", "free"), ("free", "free")):
+        v = replace(FREE, ends=ends, damping=Damping(eta=1e-3))
+        plain = critical_thrust(replace(v, damping=Damping()))
+        assert critical_thrust(v).thrust == pytest.approx(plain.thrust, rel=2e-3)
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_every_thrust_below_is_safe(seed: int) -> None:
+    """By the eigenvalues at many thrusts, chosen without the search's own."""
+    v = random_vehicle(seed, control=True)
+    found = critical_thrust(v)
+    known = structure(v)
+    mean = Mean.of(v, known, 1.0)
+    most = min(found.thrust, found.searched) / known.modes.mesh.scales.force
+    rng = np.random.default_rng(seed)
+    for share in rng.uniform(1e-5, 1.0 - 1e-6, 300):
+        assert not mean.unstable(share * most)
+    assert found.resolution <= 1e-4 * max(found.thrust, 1e-2 * found.searched)
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_eigenvalues_stay_where_the_discs_say(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    n = int(rng.integers(2, 9))
+    A = rng.normal(size=(n, n)) - 2.0 * np.sqrt(n) * np.eye(n)
+    B = rng.normal(size=(n, n)) * np.exp(rng.normal(size=(n, n)))
+    h = Moved.of(A, B).stays_left(1.0)
+    assert h > 0.0
+    for d in h * rng.uniform(-1.0, 1.0, 100):
+        assert np.linalg.eigvals(A + d * B).real.max() < 0.0
+    # and not by much less than it might be
+    assert any(np.linalg.eigvals(A + d * B).real.max() > 0.0 for d in (-200 * h, 200 * h))
+    spectrum = np.sort(rng.uniform(0.1, 1.0, n)).cumsum()
+    V = rng.normal(size=(n, n)) + 2.0 * np.eye(n)
+    K = V @ np.diag(spectrum) @ np.linalg.inv(V)
+    h = Moved.of(K, B).stays_positive(1e-2)
+    assert h > 0.0
+    for d in h * rng.uniform(-1.0, 1.0, 100):
+        values = np.linalg.eigvals(K + d * B)
+        assert np.all(values.imag == 0.0)
+        assert values.real.min() > 0.0
+    assert Moved.of(-A, B).stays_left(1.0) == 0.0
+    assert Moved.of(np.array([[0.0, 1.0], [-1.0, 0.0]]), np.eye(2)).stays_positive(1.0) == 0.0
 
 
 def test_laws() -> None:

@@ -3,15 +3,14 @@
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any
 
 from compare.both_routes import CrossCheck, crosscheck
 from compare.vehicle.candidates import Candidate, candidates
-from compare.vehicle.critical import Loss, critical_gamma, steady_loss
+from compare.vehicle.critical import critical_gamma
 from compare.vehicle.near import Band, Near
 from compare.vehicle.sensitivity import Effect, effects
 from compare.vehicle.witnessed import Witnessed, witnessed
-from hill import Vehicle
+from hill import CriticalThrust, Vehicle, critical_thrust
 from hill.averaging import Resonance, first_order
 from hill.errors import Refused
 from hill.oscillations.steady import Steady, steady
@@ -75,8 +74,9 @@ class Study:
         Frequencies without thrust, of the elastic modes.
     alone : Steady
         Under the mean thrust.
-    loss : Loss or None
-        Where steady thrust is too much; None where it is nowhere up to 50 times the vehicle's.
+    loss : CriticalThrust or None
+        Where steady thrust is too much, its `kind` "none" where it is nowhere found; None without
+        thrust.
     operating : CrossCheck or None
         Both routes at the operating pulsation.
     rows : tuple of Row
@@ -97,7 +97,7 @@ class Study:
     body: RigidBody
     free: tuple[float, ...]
     alone: Steady
-    loss: Loss | None
+    loss: CriticalThrust | None
     operating: CrossCheck | None
     rows: tuple[Row, ...]
     others: tuple[Candidate, ...]
@@ -114,7 +114,7 @@ class Study:
     @property
     def steadily_lost(self) -> bool:
         """Whether the vehicle is unstable without pulsation."""
-        return self.loss is not None and self.loss.thrust / self.vehicle.thrust.mean <= 1.0
+        return self.loss is not None and self.loss.margin(self.vehicle) <= 1.0
 
     @property
     def routes_agree(self) -> bool:
@@ -234,11 +234,8 @@ def _row(near: Callable[[float], Near], gamma: float) -> Row:
     return Row(band, critical_gamma(near, band, gamma))
 
 
-def _loss(vehicle: Vehicle, eta: float) -> Loss | None:
+def _loss(vehicle: Vehicle, eta: float) -> CriticalThrust | None:
     if not vehicle.thrust.mean:
         return None
-
-    def equation(T0: float) -> Any:
-        return replace(vehicle, thrust=replace(vehicle.thrust, mean=T0)).equation(1.0, 0.0, eta)
-
-    return steady_loss(equation, vehicle.thrust.mean)
+    damping = replace(vehicle.damping, eta=vehicle.damping.eta + eta)
+    return critical_thrust(replace(vehicle, damping=damping))

@@ -4,6 +4,10 @@ import math
 from dataclasses import dataclass
 
 from compare.vehicle.study import Row, Study, distance
+from hill import CriticalThrust
+
+KINDS = {"divergence": "buckling", "flutter": "flutter"}
+"""How steady thrust is too much, in an engineer's word."""
 
 
 @dataclass(frozen=True)
@@ -61,7 +65,7 @@ def _danger(study: Study) -> str:
     unit, loss = names(study), study.loss
     if study.steadily_lost:
         return "Nearest danger: steady thrust alone is too much" + (
-            f", from {number(loss.thrust)}{unit.force} on ({loss.kind})." if loss else "."
+            f", from {number(loss.thrust)}{unit.force} on ({KINDS[loss.kind]})." if loss else "."
         )
     if study.open_rows:
         row = study.open_rows[0]
@@ -101,16 +105,22 @@ def facts(study: Study) -> list[str]:
         f"frequencies without thrust: {free}{unit.frequency}",
         f"frequencies under thrust: {under}{unit.frequency}",
     ]
-    thrust, loss = study.vehicle.thrust.mean, study.loss
-    if loss is not None:
-        at = f" at {number(cycles(loss.frequency))}{unit.frequency}" if loss.frequency else ""
-        found.append(
-            f"steady thrust alone: {loss.kind}{at} from {number(loss.thrust, 6)}{unit.force}, "
-            f"{number(loss.thrust / thrust)} times the vehicle's {number(thrust, 6)}{unit.force}"
-        )
-    elif thrust:
-        found.append("steady thrust alone: stable up to 50 times the vehicle's thrust")
+    if study.loss is not None:
+        found.append(_steady(study, study.loss))
     return found
+
+
+def _steady(study: Study, loss: CriticalThrust) -> str:
+    unit, thrust = names(study), study.vehicle.thrust.mean
+    sure = f"but for gaps of up to {number(loss.resolution, 1)}{unit.force}"
+    if loss.kind == "none":
+        return f"steady thrust alone: shown safe up to {number(loss.searched)}{unit.force}, {sure}"
+    at = f" at {number(loss.frequency)}{unit.frequency}" if loss.frequency else ""
+    return (
+        f"steady thrust alone: {KINDS[loss.kind]}{at} from {number(loss.thrust, 6)}{unit.force}, "
+        f"{number(loss.margin(study.vehicle))} times the vehicle's {number(thrust, 6)}{unit.force} "
+        f"(shown safe below, {sure})"
+    )
 
 
 HEADS = (

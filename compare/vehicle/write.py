@@ -10,7 +10,18 @@ from compare.charts.identity import known_values, type_name
 from compare.console import bare_table, say, show
 from compare.provenance import in_words, provenance
 from compare.vehicle.study import Row, Study
-from compare.vehicle.words import HEADS, cells, cycles, doubling, facts, moved, remarks, summary
+from compare.vehicle.words import (
+    HEADS,
+    KINDS,
+    cells,
+    cycles,
+    doubling,
+    facts,
+    moved,
+    remarks,
+    summary,
+)
+from hill import CriticalThrust
 
 STYLES = {"stable": "bold green", "unstable": "bold red", "undecided": "bold yellow"}
 
@@ -81,13 +92,7 @@ def as_json(title: str, study: Study) -> str:
         "moment_of_inertia": study.body.inertia,
         "frequencies_without_thrust": [cycles(w) for w in study.free],
         "frequencies_under_thrust": [cycles(float(w)) for w in study.alone.frequencies],
-        "steady_loss": loss
-        and {
-            "thrust": loss.thrust,
-            "margin": loss.thrust / study.vehicle.thrust.mean,
-            "kind": loss.kind,
-            "frequency": cycles(loss.frequency),
-        },
+        "steady_thrust": loss and _steady(study, loss),
         "operating": x
         and {
             "frequency": cycles(study.Omega or 0.0),
@@ -119,6 +124,18 @@ def _about(study: Study) -> dict[str, Any]:
         "orders": study.orders,
         "units": f"{', '.join(x for x in (u.length, u.mass, u.time, u.force) if x) or 'none named'}"
         f"; frequencies in {u.frequency or 'cycles'}",
+    }
+
+
+def _steady(study: Study, loss: CriticalThrust) -> dict[str, Any]:
+    lost = loss.kind != "none"
+    return {
+        "kind": KINDS[loss.kind] if lost else None,
+        "critical": loss.thrust if lost else None,
+        "margin": loss.margin(study.vehicle) if lost else None,
+        "frequency": loss.frequency if lost else None,
+        "searched_to": loss.searched,
+        "resolution": loss.resolution,
     }
 
 

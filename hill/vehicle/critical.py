@@ -9,6 +9,7 @@ from scipy.linalg import eig
 
 from hill import checks
 from hill.arrays import Complex, Float
+from hill.vehicle.discs import Moved
 from hill.vehicle.equations import elastic, modal_damping
 from hill.vehicle.matrices import Structure, structure
 from hill.vehicle.vehicle import Vehicle
@@ -25,7 +26,10 @@ FIRST = 1e-6
 """The first thrust that is tried, over the last: unstable there is unstable from the start."""
 
 STEPS = 600
-"""Thrusts that are tried; what is unstable between two of them only is not found."""
+"""Steps of the search where nothing can be shown between two thrusts."""
+
+RESOLUTION = 1e-6
+"""Of the critical thrust: what is shown below it reaches so near, where it can be shown at all."""
 
 # Over the size of an eigenvalue: roundings of a pair that is about to meet are its square root.
 COMPLEX = 1e-6
@@ -33,6 +37,7 @@ GROWING = 1e-9
 # Of a force that does not turn a coordinate, over the largest.
 NOTHING = 1e-11
 BISECTIONS = 60
+BEYOND = 1.0 + 1e-6
 
 
 @dataclass(frozen=True)
@@ -49,35 +54,46 @@ class CriticalThrust:
         Of what grows, cycles per unit of time; 0 for divergence, nan for none.
     searched : float
         The largest thrust that was tried.
+    resolution : float
+        Between thrusts that are shown to be safe the widest gap below `thrust`, in which what is
+        unstable may have been missed.
     """
 
     thrust: float
     kind: Kind
     frequency: float
     searched: float
+    resolution: float
 
     def margin(self, vehicle: Vehicle) -> float:
         """Over the vehicle's own mean thrust."""
         return self.thrust / vehicle.thrust.mean if vehicle.thrust.mean else math.inf
 
 
-def critical_thrust(vehicle: Vehicle, most: float | None = None) -> CriticalThrust:
+def critical_thrust(
+    vehicle: Vehicle, most: float | None = None, *, resolution: float = RESOLUTION
+) -> CriticalThrust:
     """The lowest steady thrust that makes the vehicle unstable, with as many modes as it has.
 
     Its damping, rates and servo count. Without any of them the frequencies are looked at; a rigid
     rotation that nothing turns back is neutral and left out. `with_more_modes` has the limit of
     many modes.
 
+    The thrusts below are shown to be safe interval by interval, by discs about the eigenvalues,
+    except where two of them pass each other.
+
     Parameters
     ----------
     vehicle : Vehicle
     most : float, optional
         Where the search ends, a force.
+    resolution : float, optional
+        Gap in what is shown, over the thrust, at which the search goes on without.
 
     Raises
     ------
     ValueError
-        `most` is not greater than 0.
+        `most` or `resolution` is not greater than 0.
     """
     known = structure(vehicle)
     unit = known.modes.mesh.scales
@@ -87,21 +103,57 @@ def critical_thrust(vehicle: Vehicle, most: float | None = None) -> CriticalThru
         searched = checks.positive("most", most) / unit.force
     sign = -1.0 if vehicle.thrust.mean < 0.0 else 1.0
     mean = Mean.of(vehicle, known, sign)
-    low = 0.0
-    for high in [FIRST * searched, *np.linspace(0.0, searched, STEPS + 1)[1:].tolist()]:
-        if mean.unstable(high):
-            for _ in range(BISECTIONS if low > 0.0 else 0):
-                middle = 0.5 * (low + high)
-                low, high = (low, middle) if mean.unstable(middle) else (middle, high)
-            frequency = mean.grows(high) / (2.0 * math.pi * unit.time)
-            return CriticalThrust(
-                thrust=sign * (high if low > 0.0 else 0.0) * unit.force,
-                kind="flutter" if frequency > 0.0 else "divergence",
-                frequency=frequency,
-                searched=searched * unit.force,
-            )
-        low = high
-    return CriticalThrust(sign * math.inf, "none", math.nan, searched * unit.force)
+    found, gap = _first(mean, searched, checks.positive("resolution", resolution))
+    if found is None:
+        kind: Kind = "none"
+        thrust, frequency = math.inf, math.nan
+    else:
+        # at the boundary itself rounding decides what it is
+        thrust, frequency = found, mean.grows(found * BEYOND or FIRST * searched)
+        kind = "flutter" if frequency > 0.0 else "divergence"
+    return CriticalThrust(
+        thrust=sign * thrust * unit.force + 0.0,
+        kind=kind,
+        frequency=frequency / (2.0 * math.pi * unit.time),
+        searched=searched * unit.force,
+        resolution=gap * unit.force,
+    )
+
+
+def _first(mean: "Mean", searched: float, resolution: float) -> tuple[float | None, float]:
+    """The first unstable thrust, 0 if all are, and the widest gap in what is shown below it."""
+    low = FIRST * searched
+    if mean.unstable(low):
+        return 0.0, 0.0
+    gap, step, least = low, low, 0.0
+    while low < searched:
+        step = min(step, 2.0 * (searched - low))
+        middle = low + step
+        safe = mean.safe(middle, step)
+        if safe >= step * (1.0 - 1e-9):
+            low, step, least = middle + safe, 2.0 * safe, 0.0
+            continue
+        if mean.unstable(middle) or step > max(resolution * low, least):
+            if step > max(resolution * low, least):
+                step = max(0.25 * step, 0.9 * safe)
+                continue
+            return _crossing(mean, low, middle, gap)
+        # nothing is shown here: on to where something is, or to where it is unstable
+        reached = middle - safe if safe else middle
+        gap = max(gap, reached - low)
+        low = middle + safe
+        least = min(2.0 * max(step, least), searched / STEPS)
+        step = max(step, least)
+    return None, gap
+
+
+def _crossing(mean: "Mean", low: float, high: float, gap: float) -> tuple[float, float]:
+    """Between a stable thrust and an unstable one, and the gap below it."""
+    start = low
+    for _ in range(BISECTIONS):
+        middle = 0.5 * (low + high)
+        low, high = (low, middle) if mean.unstable(middle) else (middle, high)
+    return high, max(gap, high - start)
 
 
 @dataclass(frozen=True, eq=False)
@@ -145,8 +197,9 @@ class Mean:
         return own if served else own._without_neutral()
 
     def _without_neutral(self) -> "Mean":
-        """Without a rigid rotation that meets no force: it is left to itself."""
-        turns = np.abs(np.stack([self.elastic, self.damping, self.pull, self.rate])[:, :, -1])
+        """Without a rigid rotation that meets nothing but its own damping: left to itself."""
+        apart = self.damping - np.diag(np.diag(self.damping))
+        turns = np.abs(np.stack([self.elastic, apart, self.pull, self.rate])[:, :, -1])
         if turns.max() > NOTHING * np.abs(self.pull).max():
             return self
         elastic, damping, pull, rate = (
@@ -157,6 +210,13 @@ class Mean:
     def unstable(self, thrust: float) -> bool:
         """Whether something grows."""
         return not math.isnan(self.grows(thrust))
+
+    def safe(self, thrust: float, reach: float) -> float:
+        """About a thrust, how far the others are shown to be stable too; 0 if it is not."""
+        if self.gimbal is None and not (np.any(self.damping) or np.any(self.rate)):
+            return Moved.of(self.elastic + thrust * self.pull, self.pull).stays_positive(reach)
+        slope = self._states(1.0) - self._states(0.0)
+        return Moved.of(self._states(thrust), slope).stays_left(reach)
 
     def grows(self, thrust: float) -> float:
         """Circular frequency of what grows, 0 if it does not oscillate; nan if nothing does."""
@@ -184,6 +244,10 @@ class Mean:
         return math.nan
 
     def _exponents(self, thrust: float) -> Complex:
+        return np.asarray(eig(self._states(thrust), right=False))
+
+    def _states(self, thrust: float) -> Float:
+        """A of x' = A x, x = (q, q') or (q, q', the gimbal's angle)."""
         n = len(self.pull)
         A = np.zeros((2 * n, 2 * n))
         A[:n, n:] = np.eye(n)
@@ -194,4 +258,4 @@ class Mean:
             A = np.pad(A, (0, 1))
             A[n:-1, -1] = -thrust * push
             A[-1] = np.append(turning, -self.lag)
-        return np.asarray(eig(A, right=False))
+        return A
