@@ -11,12 +11,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from hill.arrays import Complex, Float
+from hill.arrays import Complex, Float, frozen
 
 Booleans = NDArray[np.bool_]
 
 # Distances that are tried, over the one asked about, the largest first.
-SHARES = 2.0 ** np.arange(3.0, -13.0, -1.0)
+SHARES = frozen(2.0 ** np.arange(3.0, -13.0, -1.0))
 
 
 @dataclass(frozen=True, eq=False)
