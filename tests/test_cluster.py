@@ -2,6 +2,9 @@
 
 import logging
 import os
+import socket
+import subprocess
+import sys
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -181,3 +184,59 @@ def test_a_worker_that_dies_is_replaced_once(client: Any, tmp_path: Path) -> Non
     with pytest.raises(WorkersError, match="lost every worker that it was given to"):
         list(over(client)(leave, [(1, always, 9)]))
     assert Path(always).read_text() == "xx"
+
+
+@pytest.mark.parametrize(
+    "address",
+    ["http://host:80", "tcp://:80", "tcp://host:0", "tcp://host:65536", "tcp://host:٣", "host", ""],
+)
+def test_what_is_no_address(address: str) -> None:
+    with pytest.raises(ValueError, match="no scheduler has such an address"), connect(address):
+        pass
+
+
+def test_who_listens_and_is_no_scheduler(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Dask would wait for a word from it for ever."""
+    monkeypatch.setattr(cluster, "CONNECT_TIMEOUT", 0.5)
+    with socket.create_server(("127.0.0.1", 0)) as silent:
+        address = f"tcp://127.0.0.1:{silent.getsockname()[1]}"
+        with pytest.raises(ValueError, match="no scheduler answers"), connect(address):
+            pass
+
+
+SCHEDULER = """\
+import time
+from distributed import LocalCluster
+if __name__ == "__main__":
+    with LocalCluster(
+        n_workers=1, processes=False, protocol="tcp://", dashboard_address=None
+    ) as local:
+        print(local.scheduler_address, flush=True)
+        time.sleep(60.0)
+"""
+
+
+def test_a_scheduler_that_dies_is_one_line(tmp_path: Path) -> None:
+    script, nodes = tmp_path / "scheduler.py", tmp_path / "chart.nodes"
+    script.write_text(SCHEDULER)
+    command = [sys.executable, "-m", "compare", "chart", "--x", "Omega", "0.35", "6", "100"]
+    command += ["--y", "T0", "0", "25", "100", "--also", "gamma", "0", "0.3", "10"]
+    with subprocess.Popen(
+        [sys.executable, str(script)],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        text=True,
+    ) as scheduler:
+        assert scheduler.stdout is not None
+        address = scheduler.stdout.readline().strip()
+        command += ["--cluster", address, "--resume", str(nodes)]
+        with subprocess.Popen(command, stderr=subprocess.PIPE, text=True) as run:
+            deadline = time.monotonic() + 60.0
+            while not (nodes.exists() and b"NODE" in nodes.read_bytes()):
+                assert time.monotonic() < deadline
+                assert run.poll() is None
+                time.sleep(0.02)
+            scheduler.kill()
+            _, said = run.communicate(timeout=30)
+    assert run.returncode == 2
+    assert said == "verify chart: workers: the cluster was closed before the jobs were done\n"

@@ -8,9 +8,12 @@ rule, have one BLAS thread each.
 
 import logging
 import pickle
+import re
+import socket
 import sys
+import threading
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, Any
 
 from compare.jobs.workers import MapLike, WorkersError
@@ -18,8 +21,11 @@ from compare.jobs.workers import MapLike, WorkersError
 if TYPE_CHECKING:
     from distributed import Client
 
-CONNECT_TIMEOUT = 10.0
-"""Seconds to wait for a scheduler to answer."""
+CONNECT_TIMEOUT, KNOCK_TIMEOUT = 10.0, 3.0
+"""Seconds to wait for a scheduler to answer, and for anybody there at all."""
+
+SCHEMES = ("tcp", "tls", "ws", "wss", "ucx")
+"""How Dask speaks to a scheduler, in its addresses."""
 
 
 def over(client: "Client") -> MapLike:
@@ -53,27 +59,69 @@ def connect(address: str) -> Iterator[MapLike]:
     ValueError
         No scheduler answers there, or Dask is not installed.
     """
-    host, colon, port = address.rpartition(":")
-    if not (host and colon and port.isdigit()):
-        raise ValueError(
-            f"cluster = {address!r}: no scheduler has such an address; like tcp://host:8786"
-        )
+    host, port = _host_and_port(address)
     try:
-        from distributed import Client
+        import distributed  # noqa: F401 - whether it is there
     except ImportError:
         raise ValueError(
             'a cluster needs Dask: pip install "floquet-crosscheck[cluster]"'
         ) from None
-    # what Dask has to say of a lost connection is said here, in one line
-    logging.getLogger("distributed").setLevel(logging.CRITICAL)
+    _silence()
     try:
-        client = Client(address, timeout=CONNECT_TIMEOUT, set_as_default=False)
-    except (OSError, ValueError):
+        # Dask would try again and again where nobody listens
+        socket.create_connection((host, port), KNOCK_TIMEOUT).close()
+        client = _client(address)
+    except OSError:
         raise ValueError(
             f"cluster = {address!r}: no scheduler answers; must be like tcp://host:8786"
         ) from None
     with client:
         yield over(client)
+
+
+def _client(address: str) -> "Client":
+    """A client, or `TimeoutError`: what is no scheduler may keep Dask waiting for ever."""
+    from distributed import Client
+
+    class Patient(Client):  # type: ignore[misc]
+        """One that was never connected has nothing to close, and Dask would wait for it."""
+
+        def __del__(self) -> None:
+            if self.status == "running":
+                super().__del__()
+
+    made: list[Patient] = []
+
+    def make() -> None:
+        # whatever it is that Dask makes of another protocol
+        with suppress(Exception):
+            made.append(Patient(address, timeout=CONNECT_TIMEOUT, set_as_default=False))
+
+    thread = threading.Thread(target=make, daemon=True)
+    thread.start()
+    thread.join(CONNECT_TIMEOUT)
+    if not made:
+        raise TimeoutError
+    return made[0]
+
+
+def _host_and_port(address: str) -> tuple[str, int]:
+    scheme, _, rest = address.rpartition("://")
+    host, _, port = rest.rpartition(":")
+    known = scheme in ("", *SCHEMES) and host.strip("[]") and re.fullmatch(r"[0-9]{1,5}", port)
+    if not known or not 0 < int(port) < 1 << 16:
+        raise ValueError(
+            f"cluster = {address!r}: no scheduler has such an address; like tcp://host:8786"
+        )
+    return host.strip("[]"), int(port)
+
+
+def _silence() -> None:
+    """What Dask has to say of a lost connection is said here, in one line."""
+    for name in ("distributed", "asyncio", *logging.root.manager.loggerDict):
+        # Dask has set a level for some of its loggers itself
+        if name.partition(".")[0] in ("distributed", "asyncio"):
+            logging.getLogger(name).setLevel(logging.CRITICAL + 1)
 
 
 class _Cluster:
