@@ -51,22 +51,25 @@ def test_exponents_from_the_literature(name: str, method: str) -> None:
     given, expected = EXPONENTS[name]
     found = monodromy(given, method=method)
     apart = wrapped(found.exponents[:, None] - np.array(expected)[None, :], given.Omega)
-    # Measured 2e-14 by taylor; by cvodes 7e-10, of -24.
-    assert apart.min(axis=0).max() < (1e-12 if method == "taylor" else 1e-8)
+    # Measured 7e-13 by taylor, of vinograd's -13; by cvodes 4e-12, of -24.
+    assert apart.min(axis=0).max() < (1e-12 if method == "taylor" else 1e-11)
     assert np.all(apart.min(axis=1) <= found.exponent_errors)
-    assert np.max(found.exponent_errors) < (1e-9 if method == "taylor" else 1e-7)
+    # Measured 2e-10, of vinograd's: one part in 6e10.
+    assert np.max(found.exponent_errors) < 1e-9
     T = 2.0 * max(e.real for e in expected)
     assert abs(found.T - T) <= found.T_error
     assert found.verdict in ("undecided", "stable" if T < 0.0 else "unstable")
 
 
-def test_what_one_period_loses_is_known_all_the_same() -> None:
+@both_methods
+def test_what_one_period_loses_is_known_all_the_same(method: str) -> None:
     """exp(-48 pi) is 1e-66 of the other: the bound says 1e-10 relative and better."""
-    found = monodromy(BITTANTI_COLANERI)
+    found = monodromy(BITTANTI_COLANERI, method=method)
     assert found.exponent_errors[1] < 24.0 * 1e-10
     assert abs(found.exponents[1] + 24.0) <= found.exponent_errors[1]
-    # of the product itself nothing is left: rounding of 1e-16 beside it
-    assert abs(np.linalg.eigvals(found.matrix)).min() > 1e-30
+    # of the product itself nothing is left: rounding of 1e-16 beside it, or nothing at all
+    if method == "taylor":
+        assert abs(np.linalg.eigvals(found.matrix)).min() > 1e-30
 
 
 @pytest.mark.parametrize("damping", [200.0, 1e3])
@@ -250,7 +253,7 @@ def test_no_bound_is_below_the_true_error(seed: int, method: str) -> None:
     assert found.verdict in ("undecided", "unstable" if T > 0.0 else "stable")
     # of no use otherwise
     size = np.sum(np.abs(found.polynomial))
-    assert found.error < (1e-9 if method == "taylor" else 1e-6) * size
+    assert found.error < 1e-9 * size
 
 
 def true_exponents(Phi: list[list[arb]], period: float) -> list[complex]:

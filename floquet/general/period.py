@@ -67,13 +67,12 @@ def general_monodromy(
     values = sorted_eigenvalues(run.product)
     if not np.min(np.abs(values)) * MAX_SPREAD > np.max(np.abs(values)):
         run = _run(form, method, steps, SHORT_STEPS, SHORT_CHECK_STEPS)
-    floor = METHODS[method].parts_floor
-    found = bounded(run.product, run.product_check, run.rounding, ULPS, floor)
+    found = bounded(run.product, run.product_check, run.rounding, ULPS, 0.0)
     further = beyond_first_order(run.product, float(np.linalg.norm(found.matrix_error)))
     # a coefficient that underflows is not known to be 0
     further[1:] += TINY
     found = replace(found, errors=found.errors + further)
-    families = _families(run, found, floor)
+    families = _families(run, found)
     m = len(run.product)
     mean = form.period * form.trace / m
     growth = growth_from_multipliers(families, form.period, mean)
@@ -141,7 +140,7 @@ def _run(form: NormalForm, method: str, count: int, steps: int, check_steps: int
     )
 
 
-def _families(run: _Run, found: Bounded, floor: float) -> list[LogDiscs]:
+def _families(run: _Run, found: Bounded) -> list[LogDiscs]:
     """Sets of discs, each of which holds all multipliers; the first are the best where possible."""
     values = sorted_eigenvalues(run.product)
     known = [
@@ -153,7 +152,7 @@ def _families(run: _Run, found: Bounded, floor: float) -> list[LogDiscs]:
     if run.short:
         apart = np.abs(run.parts - run.check)
         of_all = largest_share(apart, run.parts_rounding) * run.parts_rounding
-        own = floor + ROUNDING_SAFETY * EPS * ULPS
+        own = ROUNDING_SAFETY * EPS * ULPS
         errors = SAFETY * np.maximum(apart, of_all) + own * run.parts_rounding
         families[:0] = periodic_discs(*merged(run.parts, errors))
     return families
