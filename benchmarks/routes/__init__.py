@@ -1,0 +1,1 @@
+"""Random general systems by both routes, class by class, and a sample against ball arithmetic."""
