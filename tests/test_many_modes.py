@@ -46,8 +46,8 @@ def test_T_of_uncoupled_equations(n: int, form: str) -> None:
     assert T > 0.01
     # Measured 2e-13: R and its inverse are rounded too.
     assert abs(found.T - T) < 1e-11
-    # in coordinates that are all coupled moduli add up
-    assert found.T_error < 1e-9
+    # Measured 9e-11, of fifty: in coordinates that are all coupled moduli add up.
+    assert found.T_error < 2e-10
     assert found.verdict == "unstable"
     multipliers = np.concatenate([one.multipliers for one in alone])
     apart = np.abs(found.multipliers[:, None] - multipliers).min(axis=1)
