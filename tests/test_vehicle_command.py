@@ -1,6 +1,7 @@
 """``verify vehicle``: what it says of the examples, and that both routes say it."""
 
 import json
+import re
 from dataclasses import replace
 from math import log, pi
 from pathlib import Path
@@ -104,7 +105,7 @@ def test_appendix_A_is_safe(capsys: pytest.CaptureFixture[str]) -> None:
     assert "centre of mass 2400 in from the nose" in out
     # 26.58 of the report's two modes over its 5.1, test_the_report_s_buckling has the digits
     assert "buckling from 1.56952e+08 lbf, 5.213 times" in out
-    assert "(shown safe below, but for gaps of up to 9e+03" in out
+    assert "(shown safe below, but for gaps of up to 3e+04" in out
 
 
 def test_a_vehicle_that_its_thrust_alone_shakes_apart(capsys: pytest.CaptureFixture[str]) -> None:
@@ -133,6 +134,37 @@ def test_as_json(capsys: pytest.CaptureFixture[str]) -> None:
     assert row["doubling_time"] == pytest.approx(log(2.0) * row["time_constant"])
     assert row["witness"]["verdict"] == "unstable"
     assert len(row["effects"]) == 3
+    more = {(x["resonance"], x["what"]): x for x in content["more_modes"]}
+    own = more[row["name"], "width"]
+    assert own["modes"] == [2, 4, 6, 8, 10, 12]
+    assert own["values"][0] == pytest.approx(row["band"][1] - row["band"][0], rel=1e-9)
+    assert more[row["name"], "T"]["values"][0] == row["T"]
+    # 25.638 of the literature, in the file's units
+    thrust, unit = more[None, "critical thrust"], 1.360644e14 / 4800.0**2
+    assert abs(thrust["limit"] - 25.638 * unit) <= thrust["error_estimate"] + 5e-4 * unit
+    assert content["steady_thrust"]["critical"] == thrust["values"][0]
+    assert 0.0 < content["steady_thrust"]["resolution"] < 1e-3 * thrust["values"][0]
+
+
+def test_more_modes_in_words(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    words = (UNIFORM, "--order", "1", "--both", "0", "--more-modes", "3")
+    _, out = answered(capsys, *words)
+    assert "With more modes, and the limit of all of them" in out
+    assert re.search(r"2 modes +4 modes +8 modes +limit", out)
+    assert re.search(r"steady thrust +critical +1.5695e\+08 +1.5261e\+08 +1.5162e\+08", out)
+    path = tmp_path / "study.md"
+    assert main(["vehicle", *words, "--output", str(path)]) == 0
+    assert "2 modes | 4 modes | 6 modes | 8 modes | limit | +-" in path.read_text()
+
+
+def test_the_study_of_a_damping_matrix(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    text = Path(UNIFORM).read_text()
+    matrix = "matrix = [[0.06, 0.0, 0.0], [0.0, 0.06, 0.0], [0.0, 0.0, 0.06]]"
+    path = tmp_path / "own.toml"
+    path.write_text(text.replace("eta = 0.0628319", matrix))
+    status, out = answered(capsys, str(path), "--order", "1", "--both", "0")
+    assert status == 0
+    assert "not known: the damping matrix fixes their number" in out
 
 
 def test_as_markdown_into_a_file(tmp_path: Path) -> None:
@@ -188,6 +220,7 @@ def test_routes_that_disagree_are_status_1(
         ([UNIFORM, "--range", "nan", "2"], "--range = nan: must be finite"),
         ([UNIFORM, "--order", "0"], "--order = 0: must be at least 1"),
         ([UNIFORM, "--both", "-1"], "--both = -1: must be at least 0"),
+        ([UNIFORM, "--more-modes", "2"], "--more-modes = 2: must be at least 3"),
         ([UNIFORM, "--closely", "0"], "--closely = 0: must be at least 1"),
         ([UNIFORM, "--set", "trust=3"], "did you mean thrust"),
         (["gone.toml"], "cannot be read"),

@@ -214,7 +214,7 @@ def test_a_narrow_pocket_is_found(coupling: float) -> None:
     pull = np.array([[1.0, coupling], [-coupling, 0.0]])
     nothing = np.zeros((2, 2))
     mean = Mean(np.diag([1.0, 2.0]), nothing, pull, nothing, None, 0.0)
-    found, gap = _first(mean, 80.0, 1e-6)
+    found, gap = _first(mean, 8e-5, 80.0, 1e-6)
     # (1 - T)^2 = 4 c^2 T^2
     assert found == pytest.approx(1.0 / (1.0 + 2.0 * coupling), rel=1e-6)
     assert gap < 1e-4
@@ -227,7 +227,7 @@ def test_what_is_narrower_is_said() -> None:
     pull = np.array([[1.0, 1e-9], [-1e-9, 0.0]])
     nothing = np.zeros((2, 2))
     mean = Mean(np.diag([1.0, 2.0]), nothing, pull, nothing, None, 0.0)
-    found, gap = _first(mean, 2.0, 1e-6)
+    found, gap = _first(mean, 2e-6, 2.0, 1e-6)
     assert found is None or found == pytest.approx(1.0, abs=1e-8)
     assert 4e-9 < gap < 1e-4
 
@@ -299,5 +299,8 @@ def test_what_cannot_have_more_modes() -> None:
             limit(FREE, *modes)
     with pytest.raises(ValueError, match="modes = 0"):
         limit(FREE, 0, 2, 4, 6)
+    for name in ("least", "resolution"):
+        with pytest.raises(ValueError, match=f"{name} = -1"):
+            critical_thrust(FREE, **{name: -1.0})
     with pytest.raises(ValueError, match="most = -1"):
         critical_thrust(FREE, most=-1.0)

@@ -9,7 +9,8 @@ from compare.commands.asked import settings
 from compare.commands.terminal import deliver, stages, terminal
 from compare.console import as_file
 from compare.output import check_writable
-from compare.vehicle.study import CLOSELY, WITNESSED, study
+from compare.vehicle.convergence import FEWEST
+from compare.vehicle.study import CLOSELY, FEW_MODES, MORE, MORE_MANY, WITNESSED, study
 from compare.vehicle.write import as_json, markdown, text
 from hill import Vehicle, checks
 
@@ -62,6 +63,13 @@ def configure(p: argparse.ArgumentParser) -> None:
         help=f"and those of them that the time domain is asked about (default {WITNESSED})",
     )
     p.add_argument(
+        "--more-modes",
+        type=int,
+        metavar="K",
+        help=f"add two modes K times and see what changes (default {MORE}, or {MORE_MANY} with "
+        f"more than {FEW_MODES} modes)",
+    )
+    p.add_argument(
         "--format", choices=FORMATS, help="text, or what the output's suffix says (.json, .md)"
     )
     p.add_argument(
@@ -95,6 +103,9 @@ def run(options: argparse.Namespace) -> int:
             orders=checks.count("--order", options.order, least=1, most=10),
             closely=checks.count("--closely", options.closely, least=1),
             witness=checks.count("--both", options.both, least=0),
+            more=None
+            if options.more_modes is None
+            else checks.count("--more-modes", options.more_modes, least=FEWEST, most=20),
             stage=stage,
         )
     kind = options.format or (options.output.suffix[1:] if options.output else "text")

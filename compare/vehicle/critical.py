@@ -13,7 +13,9 @@ CLOSE = 1e-5
 MAX_GAMMA = 2.0
 
 
-def critical_gamma(near: Callable[[float], Near], band: Band, gamma: float) -> float | None:
+def critical_gamma(
+    near: Callable[[float], Near], band: Band, gamma: float, start: float | None = None
+) -> float | None:
     """The pulsation at which a resonance's band opens; None where it does not up to `MAX_GAMMA`.
 
     Parameters
@@ -24,6 +26,8 @@ def critical_gamma(near: Callable[[float], Near], band: Band, gamma: float) -> f
         At `gamma`.
     gamma : float
         Not 0.
+    start : float, optional
+        About where it is.
     """
     power = 2 * band.resonance.order
     before_u, before = 0.0, near(gamma).excess_at_rest
@@ -32,11 +36,15 @@ def critical_gamma(near: Callable[[float], Near], band: Band, gamma: float) -> f
     # the excess is nearly linear in u = gamma^(2 k)
     u, value, middle = abs(gamma) ** power, band.excess, band.middle
     reach = sum(near(gamma).rates) / band.resonance.order
+    guess = start
     for _ in range(MAX_STEPS):
         slope = (value - before) / (u - before_u)
-        if not slope > 0.0:
+        if guess:
+            following, guess = guess**power, None
+        elif not slope > 0.0:
             return None
-        following = u - value / slope
+        else:
+            following = u - value / slope
         if not 0.0 < following <= MAX_GAMMA**power:
             return None
         if abs(following - u) <= CLOSE * u:

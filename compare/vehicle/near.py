@@ -24,6 +24,9 @@ Equation = Callable[[float], Any]
 # Reach of the window over the half width of the band that it was made for.
 REACH = 1.3
 
+# Of half a window that was made for another band: farther out its top is not in its middle.
+INSIDE = 0.9
+
 # How often the window is moved to where the band is.
 MAX_MOVES = 6
 
@@ -61,6 +64,8 @@ class Band:
         What becomes 0 where the band closes; linear in a power of the pulsation.
     middle : float
         Omega where the excess is that.
+    window : Window
+        In which it was solved for, from the resonance's own Omega on.
     """
 
     resonance: Resonance
@@ -71,6 +76,7 @@ class Band:
     edge_error: float
     excess: float
     middle: float
+    window: Window
 
     @property
     def width(self) -> float:
@@ -124,15 +130,20 @@ class Near:
             self.known[Omega] = pair(self.equation(Omega), self.resonance, self.alone)
         return self.known[Omega]
 
-    def band(self, guess: Guess | None = None) -> Band:
+    def band(self, like: Band | None = None) -> Band:
         """The band, at the equation's pulsation.
+
+        Parameters
+        ----------
+        like : Band, optional
+            Of much the same equation: it is looked for in the same window first.
 
         Raises
         ------
         Refused
             It lies within another instability, or too many harmonics take part.
         """
-        fits, peak = self._top(guess or self.guess())
+        fits, peak = self._top(like)
         own, window = self.at(peak), fits.window
         over, middle = excess(own, peak), peak
         edges, error = None, 0.0
@@ -144,7 +155,8 @@ class Near:
                 self._edge(fits, peak, window.centre + side * window.half) for side in (-1.0, 1.0)
             )
             edges, error = (low, high), max(off, other)
-        return Band(self.resonance, peak, own.T, 2.0 * own.error, edges, error, over, middle)
+        about = Window(window.centre - self.Omega, window.half)
+        return Band(self.resonance, peak, own.T, 2.0 * own.error, edges, error, over, middle, about)
 
     def most(self, centre: float, half: float) -> tuple[float, float]:
         """The largest excess, of a band about so wide whose middle is near there, and its Omega.
@@ -169,13 +181,19 @@ class Near:
         return mid - 0.125 * (high - low) ** 2 / bend, centre
 
     def _most_of_window(self) -> tuple[float, float]:
-        fits, _ = self._top(self.guess())
+        fits, _ = self._top()
         middle = fits.middle()
         return excess(self.at(middle), middle), middle
 
-    def _top(self, guess: Guess) -> tuple[Fits, float]:
+    def _top(self, like: Band | None = None) -> tuple[Fits, float]:
         """Polynomials across the band, and where they grow fastest."""
-        window = self._window(guess)
+        if like is not None:
+            window = Window(self.Omega + like.window.centre, like.window.half)
+            fits = Fits.of(window, [self.at(x) for x in window.nodes])
+            inside = INSIDE * window.half
+            if max(abs(x - window.centre) for x in (fits.peak(), fits.middle())) < inside:
+                return fits, fits.peak()
+        window = self._window(self.guess())
         fits = Fits.of(window, [self.at(x) for x in window.nodes])
         return fits, fits.peak()
 

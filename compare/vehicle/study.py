@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 
 from compare.both_routes import CrossCheck, crosscheck
 from compare.vehicle.candidates import Candidate, candidates
+from compare.vehicle.convergence import Settling, settling
 from compare.vehicle.critical import critical_gamma
 from compare.vehicle.near import Band, Near
 from compare.vehicle.sensitivity import Effect, effects
@@ -20,6 +21,16 @@ Stage = Callable[[str, int, int], None]
 
 # Resonances that are looked at closely, of those that averaging finds the most dangerous.
 CLOSELY = 20
+
+# Of the vehicle's own: a thrust that is smaller is not looked at.
+LEAST_THRUST = 1e-3
+
+# Modes beyond which less is asked of more of them: the whole study has some seconds.
+FEW_MODES = 10
+
+# Resonances, and times that two modes are added, to tell what more modes change; with many modes.
+SETTLING, MORE = 6, 5
+SETTLING_MANY, MORE_MANY = 3, 3
 
 # And of these, by the witness too, and for what helps.
 WITNESSED = 6
@@ -85,6 +96,9 @@ class Study:
         The rest of the range, by averaging only.
     refused : tuple of str
         Resonances within others' bands, and why they have none of their own.
+    settling : tuple of Settling
+        What more modes change of the steady thrust and of the first rows; empty where a damping
+        matrix fixes the number of modes.
     """
 
     vehicle: Vehicle
@@ -102,6 +116,7 @@ class Study:
     rows: tuple[Row, ...]
     others: tuple[Candidate, ...]
     refused: tuple[str, ...]
+    settling: tuple[Settling, ...]
 
     @property
     def open_rows(self) -> tuple[Row, ...]:
@@ -140,6 +155,7 @@ def study(
     orders: int = 2,
     closely: int = CLOSELY,
     witness: int = WITNESSED,
+    more: int | None = None,
     stage: Stage = lambda *_: None,
 ) -> Study:
     """Study a vehicle.
@@ -159,6 +175,8 @@ def study(
     orders : int, optional
     closely, witness : int, optional
         How many resonances are solved for, and how many of these by the time domain too.
+    more : int, optional
+        How often two modes are added to see what they change, 3 or more times.
     stage : callable, optional
         Called with what is done, how much of it, and how much there is of it.
 
@@ -209,6 +227,17 @@ def study(
         witness:
     ]
     stage("steady thrust", 0, 0)
+    loss = _loss(vehicle, eta)
+    few = vehicle.modes <= FEW_MODES
+    settled = settling(
+        vehicle,
+        gamma,
+        eta,
+        loss,
+        [(row.band, row.critical) for row in rows[: SETTLING if few else SETTLING_MANY]],
+        more or (MORE if few else MORE_MANY),
+        lambda k, n: stage("more modes", k, n),
+    )
     return Study(
         vehicle=vehicle,
         gamma=gamma,
@@ -220,11 +249,12 @@ def study(
         body=rigid_body(vehicle),
         free=tuple(float(2.0 * math.pi * f) for f in vehicle.frequencies()),
         alone=alone,
-        loss=_loss(vehicle, eta),
+        loss=loss,
         operating=operating,
         rows=tuple(rows),
         others=tuple(listed[closely:]),
         refused=tuple(refused),
+        settling=settled,
     )
 
 
@@ -238,4 +268,5 @@ def _loss(vehicle: Vehicle, eta: float) -> CriticalThrust | None:
     if not vehicle.thrust.mean:
         return None
     damping = replace(vehicle.damping, eta=vehicle.damping.eta + eta)
-    return critical_thrust(replace(vehicle, damping=damping))
+    thrust = abs(vehicle.thrust.mean)
+    return critical_thrust(replace(vehicle, damping=damping), least=LEAST_THRUST * thrust)

@@ -3,6 +3,7 @@
 import math
 from dataclasses import dataclass
 
+from compare.vehicle.convergence import Settling
 from compare.vehicle.study import Row, Study, distance
 from hill import CriticalThrust
 
@@ -165,6 +166,53 @@ def moved(row: Row) -> str:
     """What moves T there, for one per cent more of each."""
     words = [f"{e.name} {0.01 * e.relative:+.2g}" for e in row.effects]
     return f"{row.resonance.name}: " + ", ".join(words)
+
+
+def settling_table(study: Study, columns: int | None = None) -> tuple[list[str], list[list[str]]]:
+    """What more modes change, heads and rows: with every number of modes or so many of them."""
+    if not study.settling:
+        return [], []
+    modes = study.settling[0].modes
+    every = columns is None
+    # the first ones and the last
+    shown = sorted({*range(len(modes) if columns is None else columns - 1), len(modes) - 1})
+    heads = ["", "", *(f"{modes[k]} modes" for k in shown), "limit", "+-"]
+    rows, last = [], None
+    for one in study.settling:
+        name = one.of.name if one.of else "steady thrust"
+        values = [_settled(one, one.values[k]) for k in shown]
+        error = "-" if one.error is None else number(_in_hertz(one, one.error), 1)
+        label = name if every or name != last else ""
+        rows.append([label, WHAT[one.what], *values, _settled(one, one.limit), error])
+        last = name
+    return heads, rows
+
+
+WHAT = {
+    "critical thrust": "critical",
+    "T": "T",
+    "width": "width",
+    "critical pulsation ratio": "opens at",
+}
+
+
+def _in_hertz(one: Settling, value: float) -> float:
+    return cycles(value) if one.what == "width" else value
+
+
+def _settled(one: Settling, value: float | None) -> str:
+    return "-" if value is None else number(_in_hertz(one, value), 5)
+
+
+def few_modes(study: Study) -> str:
+    """Over the table of what more modes change."""
+    if not study.settling:
+        return (
+            "What more modes would change is not known: the damping matrix fixes their number."
+            if study.vehicle.damping.matrix is not None
+            else "There is nothing to tell of with more modes."
+        )
+    return "With more modes, and the limit of all of them with an estimate of its error:"
 
 
 def remarks(study: Study) -> list[str]:

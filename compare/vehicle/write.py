@@ -9,6 +9,7 @@ from rich.console import Console
 from compare.charts.identity import known_values, type_name
 from compare.console import bare_table, say, show
 from compare.provenance import in_words, provenance
+from compare.vehicle.convergence import Settling
 from compare.vehicle.study import Row, Study
 from compare.vehicle.words import (
     HEADS,
@@ -17,8 +18,10 @@ from compare.vehicle.words import (
     cycles,
     doubling,
     facts,
+    few_modes,
     moved,
     remarks,
+    settling_table,
     summary,
 )
 from hill import CriticalThrust
@@ -58,6 +61,16 @@ def text(title: str, study: Study, console: Console) -> None:
         for row in told:
             say(console, moved(row))
     console.print()
+    say(console, few_modes(study))
+    heads, rows = settling_table(study, 2 if narrow else 3)
+    if rows:
+        table = bare_table()
+        for k, head in enumerate(heads):
+            table.add_column(head, justify="right" if k > 1 else "left", no_wrap=True)
+        for cells_ in rows:
+            table.add_row(*cells_)
+        show(console, table)
+    console.print()
     for line in remarks(study):
         say(console, line)
     console.print()
@@ -70,6 +83,11 @@ def markdown(title: str, study: Study) -> str:
     lines += ["| " + " | ".join(HEADS) + " |", "| --- " * len(HEADS) + "|"]
     lines += ["| " + " | ".join(cells(row)) + " |" for row in study.rows]
     lines += ["", *(f"- {moved(row)}" for row in study.rows if row.effects), ""]
+    lines += [few_modes(study), ""]
+    heads, rows = settling_table(study)
+    if rows:
+        lines += ["| " + " | ".join(heads) + " |", "| --- " * len(heads) + "|"]
+        lines += ["| " + " | ".join(row) + " |" for row in rows] + [""]
     lines += [*(f"- {line}" for line in remarks(study)), "", in_words(_about(study))]
     return "\n".join(lines) + "\n"
 
@@ -105,6 +123,7 @@ def as_json(title: str, study: Study) -> str:
             "discretisation": x.discretisation,
         },
         "resonances": [_row(row) for row in study.rows],
+        "more_modes": [_settling(one) for one in study.settling],
         "not_solved_for": len(study.others),
         "without_a_band": list(study.refused),
         "routes_agree": study.routes_agree,
@@ -136,6 +155,20 @@ def _steady(study: Study, loss: CriticalThrust) -> dict[str, Any]:
         "frequency": loss.frequency if lost else None,
         "searched_to": loss.searched,
         "resolution": loss.resolution,
+    }
+
+
+def _settling(one: Settling) -> dict[str, Any]:
+    def shown(value: float | None) -> float | None:
+        return cycles(value) if value is not None and one.what == "width" else value
+
+    return {
+        "resonance": one.of.name if one.of else None,
+        "what": one.what,
+        "modes": list(one.modes),
+        "values": [shown(x) for x in one.values],
+        "limit": shown(one.limit),
+        "error_estimate": shown(one.error),
     }
 
 

@@ -71,7 +71,11 @@ class CriticalThrust:
 
 
 def critical_thrust(
-    vehicle: Vehicle, most: float | None = None, *, resolution: float = RESOLUTION
+    vehicle: Vehicle,
+    most: float | None = None,
+    *,
+    least: float | None = None,
+    resolution: float = RESOLUTION,
 ) -> CriticalThrust:
     """The lowest steady thrust that makes the vehicle unstable, with as many modes as it has.
 
@@ -87,13 +91,16 @@ def critical_thrust(
     vehicle : Vehicle
     most : float, optional
         Where the search ends, a force.
+    least : float, optional
+        Where it begins; next to 0 by default. What is unstable below only is not looked for, and
+        counts as a gap.
     resolution : float, optional
         Gap in what is shown, over the thrust, at which the search goes on without.
 
     Raises
     ------
     ValueError
-        `most` or `resolution` is not greater than 0.
+        `most`, `least` or `resolution` is not greater than 0.
     """
     known = structure(vehicle)
     unit = known.modes.mesh.scales
@@ -103,7 +110,8 @@ def critical_thrust(
         searched = checks.positive("most", most) / unit.force
     sign = -1.0 if vehicle.thrust.mean < 0.0 else 1.0
     mean = Mean.of(vehicle, known, sign)
-    found, gap = _first(mean, searched, checks.positive("resolution", resolution))
+    least = FIRST * searched if least is None else checks.positive("least", least) / unit.force
+    found, gap = _first(mean, least, searched, checks.positive("resolution", resolution))
     if found is None:
         kind: Kind = "none"
         thrust, frequency = math.inf, math.nan
@@ -120,11 +128,15 @@ def critical_thrust(
     )
 
 
-def _first(mean: "Mean", searched: float, resolution: float) -> tuple[float | None, float]:
+def _first(
+    mean: "Mean", low: float, searched: float, resolution: float
+) -> tuple[float | None, float]:
     """The first unstable thrust, 0 if all are, and the widest gap in what is shown below it."""
-    low = FIRST * searched
-    if mean.unstable(low):
+    first = FIRST * searched
+    if mean.unstable(first):
         return 0.0, 0.0
+    if low > first and mean.unstable(low):
+        low = first
     gap, step, least = low, low, 0.0
     while low < searched:
         step = min(step, 2.0 * (searched - low))
