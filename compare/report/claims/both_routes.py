@@ -15,7 +15,7 @@ from compare.report.steady import natural_frequencies
 from compare.report.tables import GAMMA
 from compare.stability.indicators import indicator, zero
 from floquet.weak_form import galerkin
-from hill import HillEquation
+from hill import HillEquation, PeriodicEquation
 
 Complex = NDArray[np.complexfloating[Any, Any]]
 Float = NDArray[np.floating[Any]]
@@ -79,13 +79,17 @@ def both(
     return solve_both(closed, galerkin(beam, Omega, gamma, eta, initial_terms), str(beam))
 
 
-def solve_both(closed: HillEquation, summed: HillEquation, what: str) -> Both:
+def solve_both(
+    closed: HillEquation | PeriodicEquation, summed: HillEquation | PeriodicEquation, what: str
+) -> Both:
     """The same for an equation given twice, its matrices found in two ways."""
     x = compare_routes(closed, summed)
     h, f = x.hill, x.floquet
-    at = (
-        f"at Omega = {closed.Omega:.9g}, gamma = {closed.gamma:g}, eta = {closed.damping:g}; {what}"
-    )
+    at, damping = f"at Omega = {closed.Omega:.9g}", float("nan")
+    if isinstance(closed, HillEquation):
+        damping = closed.damping
+        at += f", gamma = {closed.gamma:g}, eta = {damping:g}"
+    at += f"; {what}"
     if not x.routes_agree or abs(h.T - f.T) > h.T_error + f.T_error:
         raise RoutesDisagree(
             f"the routes disagree: P(z) by {x.difference:.1e} where {x.bound:.1e} is allowed, "
@@ -96,7 +100,7 @@ def solve_both(closed: HillEquation, summed: HillEquation, what: str) -> Both:
             f"undecided: T = {h.T:.2e} and {f.T:.2e}, error bounds {h.T_error:.1e} and "
             f"{f.T_error:.1e}, {at}"
         )
-    neutral = x.stable and closed.damping == 0.0
+    neutral = x.stable and damping == 0.0
     return Both(0.0 if neutral else h.T, 0.0 if neutral else f.T, x.stable, h.z)
 
 

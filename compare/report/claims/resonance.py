@@ -5,7 +5,7 @@ import numpy as np
 from compare.report.claims.both_routes import Boundary, both, boundary, by_both, edge, severest
 from compare.report.claims.cases import Region, regions, resonances, uniform
 from compare.report.claims.finding import VISIBLE, Finding, Number, check_for, graded, share
-from compare.report.claims.out_of_phase import sine_alone
+from compare.report.claims.out_of_phase import sine_alone, whole_force
 from compare.report.one_route import RouteName
 from compare.report.tables import ETA
 from hill import UniformBeam
@@ -55,10 +55,12 @@ def gap() -> Finding:
         numbers += [ends[0].number("stable from"), ends[1].number("stable to")]
     other = sine_alone(beam, 2.0)
     numbers.append(other.number("T at Omega = 2, the part out of phase alone", 4))
+    whole = whole_force(beam, 2.0)
+    numbers.append(whole.number("T at Omega = 2, the whole force", 4))
     verdict = graded(at.stable and other.stable, at.stable)
     because = (
-        f"True of the report's equation; {OUT_OF_PHASE}, is largest there and alone makes T = "
-        f"{other.hill:.2f}: the gap is none."
+        f"True of the report's equation; {OUT_OF_PHASE}, is largest there, alone makes T = "
+        f"{other.hill:.2f}, and T with the whole force is {whole.hill:.4f}: the gap is none."
     )
     return Finding(tuple(numbers), verdict, because)
 
@@ -73,6 +75,7 @@ def above_gap() -> Finding:
         less.number("largest T, Omega = 2 to 2.12, g = .04"),
         more.number("largest T, Omega = 2 to 2.12, g = .08"),
         other.number("T at Omega = 2.05, g = .08, the part out of phase alone", 4),
+        whole_force(bar(0.08), 2.05).number("T at Omega = 2.05, g = .08, the whole force", 4),
     )
     gone = more.stable and not less.stable
     verdict = graded(gone and other.stable, gone)
@@ -135,6 +138,7 @@ def at_four_damped() -> Finding:
         some.number("largest T, Omega = 3.95 to 4.05, g = .04"),
         more.number("largest T, Omega = 3.95 to 4.05, g = .08"),
         other.number("T at Omega = 4, g = .08, the part out of phase alone", 4),
+        whole_force(bar(0.08), 4.0).number("T at Omega = 4, g = .08, the whole force", 4),
     )
     verdict = graded(more.stable and other.stable, more.stable)
     because = (
@@ -175,6 +179,7 @@ def narrowed() -> Finding:
         *(x.number(f"to, g = {g:g}") for g, x in high.items()),
         *(T.number(f"largest T, g = {g:g}") for g, T in top.items()),
         other.number("T at Omega = 2, g = .08, the part out of phase alone", 4),
+        whole_force(bar(0.08), 2.0).number("T at Omega = 2, g = .08, the whole force", 4),
     )
     narrower = {g: 1.0 - width[g] / width[0.0] for g in (0.04, 0.08)}
     severe = min(T.hill for T in top.values()) > 10.0 * ETA
@@ -193,12 +198,14 @@ def infinite_amplitude() -> Finding:
     """Largest T with g = .04."""
     T = severest(bar(0.04), np.arange(1.7375, 2.1, 0.0125))
     near, other = both(bar(0.0), 1.99), sine_alone(bar(0.04), 2.0)
+    whole = whole_force(bar(0.04), 2.0)
     numbers = (
         near.number("T at Omega = 1.99, g = 0"),
         T.number("largest T, Omega = 1.74 to 2.1, g = .04"),
         other.number("T at Omega = 2, g = .04, the part out of phase alone", 4),
+        whole.number("T at Omega = 2, g = .04, the whole force", 4),
     )
-    finite = max(T.hill, other.hill)
+    finite = max(T.hill, other.hill, whole.hill)
     verdict = graded(finite > near.hill, finite > 10.0)
     because = f'T stays below {finite:.2f} with g = .04: "finite" is meant, as the next lines show.'
     return Finding(numbers, verdict, because)
