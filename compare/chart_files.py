@@ -92,9 +92,9 @@ def tongues_csv(chart: Chart, found: Sequence[Instability], other: str) -> bytes
     text = io.StringIO()
     text.write(as_comment(about(chart) | {"tongues": [_summary(i) for i in found]}))
     writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(["resonance", "type", "order", other, "lower", "upper", "error"])
+    writer.writerow(["resonance", "type", "order", "crossing", other, "lower", "upper", "error"])
     for i in found:
-        head = [i.resonance.name, i.resonance.type, i.resonance.order]
+        head = [i.resonance.name, i.resonance.type, i.resonance.order, i.resonance.crossing]
         rows = zip(i.tongue.y, i.tongue.lower, i.tongue.upper, i.edge_error, strict=True)
         for y, lower, upper, error in rows:
             writer.writerow([*head, f"{y:.12g}", f"{lower:.14g}", f"{upper:.14g}", f"{error:.1e}"])
@@ -107,6 +107,7 @@ def _summary(i: Instability) -> dict[str, Any]:
         "resonance": i.resonance.name,
         "type": i.resonance.type,
         "order": i.resonance.order,
+        "crossing": i.resonance.crossing,
         "begins": i.tongue.begins,
         "ends": i.tongue.ends,
         "y": i.y,

@@ -13,7 +13,7 @@ from compare.charts.result import Chart
 from compare.edges.curves import Curve
 from compare.edges.tongue import Tongue
 from compare.provenance import picture_metadata
-from hill.averaging import Resonance
+from compare.symbols import of_resonance, of_value, symbol
 
 STYLE: Any = {
     "font.family": "serif",
@@ -24,18 +24,18 @@ STYLE: Any = {
 }
 
 
-GREEK = frozenset(
-    re.findall(
-        r"\w+",
-        """alpha beta gamma delta epsilon zeta eta theta kappa lambda mu nu xi rho sigma tau phi chi
-        psi omega Gamma Delta Theta Lambda Xi Sigma Phi Psi Omega""",
-    )
-)
-
 TITLE_WIDTH = 104
 """Characters of a title's line: the picture is as wide."""
 
 NO_PICTURES = 'pictures need matplotlib: pip install "floquet-crosscheck[plot]"'
+
+LINE: dict[str, Any] = {"color": "black", "linewidth": 0.6}
+LINES: dict[str, dict[str, Any]] = {
+    "+1": {"linestyle": (0, (6, 2))},
+    "-1": {"linestyle": "-"},
+    "pair": {"linestyle": (0, (6, 1.5, 1, 1.5))},
+}
+CROSSINGS = {"+1": r"$\mu = 1$", "-1": r"$\mu = -1$", "pair": r"a pair of $\mu$"}
 
 QUANTITIES = ("T", "disagreement")
 
@@ -100,11 +100,13 @@ def picture(
         axes = figure.add_subplot()
         (_growth if quantity == "T" else _disagreement)(figure, axes, chart)
         for boundary in boundaries:
+            look = LINES[_kind(boundary)] | LINE
             for along, across in _lines(boundary, x.name):
-                axes.plot(along, across, color="black", linewidth=0.6)
+                axes.plot(along, across, **look)
         if quantity == "T":
             _name(axes, chart, [b for b in boundaries if isinstance(b, Tongue)])
-            _legend(axes, chart, _marked(axes, chart, marks, marks_label))
+            kinds = {_kind(boundary) for boundary in boundaries}
+            _legend(axes, chart, [*_crossings(kinds), *_marked(axes, chart, marks, marks_label)])
         axes.set(xlim=(x.low, x.high), ylim=(y.low, y.high))
         axes.set_xlabel(symbol(x.name))
         axes.set_ylabel(symbol(y.name))
@@ -113,6 +115,18 @@ def picture(
         metadata = picture_metadata(about(chart), kind)
         figure.savefig(buffer, format=kind, dpi=200, metadata=metadata)
     return buffer.getvalue()
+
+
+def _kind(boundary: Tongue | Curve) -> str:
+    return boundary.kind if isinstance(boundary, Curve) else boundary.resonance.indicator
+
+
+def _crossings(kinds: set[str]) -> list[Any]:
+    """What the legend says of the lines: which multipliers leave the unit circle there."""
+    from matplotlib.lines import Line2D
+
+    shown = ((kind, words) for kind, words in CROSSINGS.items() if kind in kinds)
+    return [Line2D([], [], label=words, **(LINES[kind] | LINE)) for kind, words in shown]
 
 
 def _lines(boundary: Tongue | Curve, x: str) -> list[tuple[Any, Any]]:
@@ -187,7 +201,8 @@ def _disagreement(figure: Any, axes: Any, chart: Chart) -> None:
 
     apart = np.maximum(chart.apart, MIN_DISAGREEMENT)
     shown = axes.scatter(*chart.sampled.T, c=apart, s=7, cmap="magma_r", norm=LogNorm(), lw=0)
-    label = "largest difference of a coefficient of $P(z)$,\nover the largest coefficient"
+    of = symbol(chart.scenario.reading.variable)
+    label = f"largest difference of a coefficient of $P$({of}),\nover the largest coefficient"
     figure.colorbar(shown, ax=axes, pad=0.015, label=label)
 
 
@@ -200,7 +215,7 @@ def _name(axes: Any, chart: Chart, boundaries: Sequence[Tongue]) -> None:
         end = min(other.high, float(tongue.y[-1]))
         low, high = tongue.at(end) or (np.nan, np.nan)
         if along.low < 0.5 * (low + high) < along.high:
-            tops.append((high - low, 0.5 * (low + high), end, _math(tongue.resonance)))
+            tops.append((high - low, 0.5 * (low + high), end, of_resonance(tongue.resonance)))
     taken: list[float] = []
     upright = along is x
     for _, centre, end, name in sorted(tops, reverse=True):
@@ -217,33 +232,6 @@ def _name(axes: Any, chart: Chart, boundaries: Sequence[Tongue]) -> None:
                 fontsize=6.5,
                 bbox={"boxstyle": "round,pad=0.15", "fc": "white", "ec": "none", "alpha": 0.7},
             )
-
-
-def _math(resonance: Resonance) -> str:
-    """A resonance's name as mathematics."""
-    first, second = (rf"\omega_{{({_subscript(name)})}}" for name in resonance.frequencies)
-    pair = f"2 {first}" if first == second else f"{first} {'+-'[resonance.sign < 0]} {second}"
-    return f"${pair}$" if resonance.order == 1 else f"$({pair})/{resonance.order}$"
-
-
-def symbol(name: str) -> str:
-    """A parameter's name as mathematics, or as words where it is more than a letter."""
-    found = re.fullmatch(r"([A-Za-z]+?)(?:_?(\d+)|_([A-Za-z]+))?", name)
-    if found is None or not (len(found[1]) == 1 or found[1] in GREEK):
-        return name.replace("_", " ").replace("$", r"\$")
-    base, below = _letter(found[1]), found[2] or found[3]
-    return f"${base}_{{{_subscript(below)}}}$" if below else f"${base}$"
-
-
-def _letter(word: str) -> str:
-    return f"\\{word}" if word in GREEK else word
-
-
-def _subscript(word: str) -> str:
-    if len(word) == 1 or word in GREEK or word.isdigit():
-        return _letter(word)
-    kept = re.sub(r"[^A-Za-z0-9 .+-]", " ", word).replace(" ", r"\ ")
-    return rf"\mathrm{{{kept}}}"
 
 
 def _marked(axes: Any, chart: Chart, marks: Sequence[Mark], label: str) -> list[Any]:
@@ -265,7 +253,7 @@ def _marked(axes: Any, chart: Chart, marks: Sequence[Mark], label: str) -> list[
 
 def _title(chart: Chart, given: str) -> str:
     kind = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", type(chart.system).__name__)
-    text = ", ".join(f"{symbol(k)} = {_value(v)}" for k, v in chart.scenario.fixed.items())
+    text = ", ".join(f"{symbol(k)} = {of_value(v)}" for k, v in chart.scenario.fixed.items())
     words = (given or kind.lower()).replace("$", r"\$") + (f": {text}" if text else "")
     if chart.route == "both":
         words += f"; the routes differ by {chart.disagreement:.0e} of P at most"
@@ -286,7 +274,3 @@ def _wrapped(words: list[str]) -> list[str]:
         else:
             lines[-1] += f" {word}"
     return lines
-
-
-def _value(value: float) -> str:
-    return r"$\infty$" if value == np.inf else f"{value:g}"

@@ -110,11 +110,12 @@ def tongue_table(found: Sequence[Instability], other: str, width: int) -> Table:
     table.add_column("resonance", no_wrap=True)
     if width >= NARROW:
         table.add_column("type")
+        table.add_column("crossing", no_wrap=True)
     for head, *_ in shown:
         table.add_column(head, justify="right")
     for i in found:
         numbers = [(value(i), digits) for _, value, digits, _ in shown]
         words = [f"{v:.{digits}f}" if np.isfinite(v) else "-" for v, digits in numbers]
-        kind = [i.resonance.type] if width >= NARROW else []
+        kind = [i.resonance.type, i.resonance.crossing] if width >= NARROW else []
         table.add_row(i.resonance.name, *kind, *words)
     return table

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hill import HillEquation
+from hill import HillEquation, PeriodicEquation
 
 Complex = NDArray[np.complexfloating[Any, Any]]
 
@@ -47,10 +47,15 @@ class Resonance:
 
     @property
     def indicator(self) -> str:
-        """What changes sign on its undamped boundary: P(1), P(-1) or the discriminant of P."""
+        """What meets on its undamped boundary: multipliers at +1, at -1, or two pairs of them."""
         if self.i != self.j:
-            return "discriminant"
+            return "pair"
         return "-1" if self.order % 2 else "+1"
+
+    @property
+    def crossing(self) -> str:
+        """What leaves the unit circle there, in words."""
+        return {"+1": "mu = 1", "-1": "mu = -1"}.get(self.indicator, "a pair")
 
     @property
     def frequencies(self) -> tuple[str, str]:
@@ -90,12 +95,15 @@ def modal(equation: HillEquation) -> tuple[Complex, Complex]:
     return frequencies[order], np.linalg.solve(modes, equation.G @ modes)
 
 
-def fastest_motion(equation: HillEquation) -> float:
+def fastest_motion(equation: HillEquation | PeriodicEquation) -> float:
     """No frequency, and no growth, is above it, whatever the units of the coordinates.
 
-    The square root of the largest eigenvalue of |F| + |gamma| |G| + sum |H_s| (Perron); infinite
-    where that is beyond a float.
+    The square root of the largest eigenvalue of |F| + |gamma| |G| + sum |H_s| (Perron), or that of
+    the moduli of all that multiplies the states (q, q') or x; infinite where that is beyond a
+    float.
     """
+    if isinstance(equation, PeriodicEquation):
+        return _fastest(equation)
     with np.errstate(over="ignore"):
         sizes = np.abs(equation.F) + abs(equation.gamma) * np.abs(equation.G)
         for H in equation.H:
@@ -103,6 +111,29 @@ def fastest_motion(equation: HillEquation) -> float:
     if not np.all(np.isfinite(sizes)):
         return float("inf")
     return float(np.sqrt(np.max(np.abs(np.linalg.eigvals(sizes)))))
+
+
+def _fastest(equation: PeriodicEquation) -> float:
+    parts = [np.abs(x) for x in _moduli(equation)]
+    if equation.A is not None:
+        sizes = parts[0]
+    else:
+        n = len(parts[0])
+        over = np.abs(np.linalg.inv(np.asarray(equation.M)))
+        sizes = np.block([[np.zeros((n, n)), np.eye(n)], [over @ parts[0], over @ parts[1]]])
+    if not np.all(np.isfinite(sizes)):
+        return float("inf")
+    return float(np.max(np.abs(np.linalg.eigvals(sizes))))
+
+
+def _moduli(equation: PeriodicEquation) -> list[Any]:
+    """What the elements of A, or of K and C, are at most in a period."""
+    matrices = [equation.A] if equation.A is not None else [equation.K, equation.C]
+    return [
+        np.abs(x.mean) + sum(np.abs(part) for part in (*x.cos.values(), *x.sin.values()))
+        for x in matrices
+        if x is not None
+    ]
 
 
 def half_width(resonance: Resonance, equation: HillEquation, *, damped: bool = True) -> float:

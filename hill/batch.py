@@ -17,7 +17,10 @@ from numpy.typing import NDArray
 from hill.arrays import EPS, Bool, Float
 from hill.determinant.converged import characteristic
 from hill.determinant.folding import BlockBatch, samples
+from hill.determinant.general_polynomial import polynomial
+from hill.determinant.general_values import determinant
 from hill.equation import HillEquation
+from hill.periodic import PeriodicEquation
 from hill.precision import poor_P
 
 CHUNK = 1152
@@ -49,11 +52,11 @@ SAFETY = 4.0
 
 @dataclass(frozen=True, eq=False)
 class Polynomials:
-    """P(z) of several equations.
+    """P(z) of several equations, or P(mu).
 
     Attributes
     ----------
-    coefficients : (k, n + 1) float ndarray
+    coefficients : (k, n + 1) or (k, m + 1) float ndarray
         Monic, highest power first.
     errors : (k,) float ndarray
         Bound on the absolute error of every coefficient, for the matrices as given: their own
@@ -69,7 +72,7 @@ class Polynomials:
         return poor_P(self.coefficients, self.errors)
 
 
-def polynomials(equations: Sequence[HillEquation]) -> Polynomials:
+def polynomials(equations: Sequence[HillEquation | PeriodicEquation]) -> Polynomials:
     """P(z) of many equations of one size, by Hill's determinant.
 
     Quickest where many equations share F and G and differ in `Omega`, `gamma` and `eta`. Those
@@ -78,8 +81,10 @@ def polynomials(equations: Sequence[HillEquation]) -> Polynomials:
 
     Parameters
     ----------
-    equations : sequence of HillEquation
-        All with the same number of coordinates; `eta` one number.
+    equations : sequence of HillEquation or PeriodicEquation
+        All with the same number of coordinates; `eta` one number. Where one is a
+        `PeriodicEquation`, all are taken as such, one by one: the polynomials are those of the
+        multipliers, (k, m + 1).
 
     Raises
     ------
@@ -90,6 +95,22 @@ def polynomials(equations: Sequence[HillEquation]) -> Polynomials:
     """
     if not equations:
         return Polynomials(np.empty((0, 0)), np.empty(0))
+    if any(isinstance(equation, PeriodicEquation) for equation in equations):
+        return _general(equations)
+    return _special([e for e in equations if isinstance(e, HillEquation)])
+
+
+def _general(equations: Sequence[HillEquation | PeriodicEquation]) -> Polynomials:
+    orders = [2 * e.n if isinstance(e, HillEquation) else e.order for e in equations]
+    if any(order != orders[0] for order in orders):
+        raise ValueError("equations: must all have the same number of multipliers")
+    found = [polynomial(determinant(e)).unscaled() for e in equations]
+    return Polynomials(
+        np.array([c for c, _, _ in found]), np.array([np.max(errors) for _, errors, _ in found])
+    )
+
+
+def _special(equations: Sequence[HillEquation]) -> Polynomials:
     n, count = equations[0].n, len(equations)
     if any(equation.n != n for equation in equations):
         raise ValueError("equations: must all have the same number of coordinates")
@@ -125,7 +146,7 @@ def _system(equations: list[HillEquation]) -> tuple[BlockBatch, Float]:
     shift = 0.25 * np.array([e.damping for e in equations]) ** 2
     F, G = _stack([e.F for e in equations]), _stack([e.G for e in equations])
     Fbar = (F - shift * np.eye(n)[:, :, None]) * per_Omega2
-    of_F, moved = _spectrum(F, shift)
+    of_F, moved = _spectrum(F, shift, np.abs(G) * np.array([abs(e.gamma) for e in equations]))
     squares = (of_F - shift) * per_Omega2
     highest = np.sqrt(np.max(np.abs(squares), axis=0))
     strength = np.abs(b) * np.max(np.abs(_eigenvalues(np.abs(G))), axis=0)
@@ -139,10 +160,11 @@ def _system(equations: list[HillEquation]) -> tuple[BlockBatch, Float]:
     return system, np.where(fast, M, np.inf)
 
 
-def _spectrum(F: Float, shift: Float) -> tuple[Any, Float]:
-    """Eigenvalues of F, (n, k), and how far each moves when the terms of F - shift are rounded.
+def _spectrum(F: Float, shift: Float, coupling: Float) -> tuple[Any, Float]:
+    """Eigenvalues of F, (n, k), and how far each moves when F - shift and the coupling are rounded.
 
-    To first order an eigenvalue moves by l dF r, l and r its left and right eigenvectors.
+    To first order an eigenvalue moves by l dF r, l and r its left and right eigenvectors. Rounding
+    on the way, which F's zeros do not keep out where G has none, moves it likewise.
     """
     stacked = np.moveaxis(F, -1, 0)
     values, right = np.linalg.eig(stacked)
@@ -151,7 +173,8 @@ def _spectrum(F: Float, shift: Float) -> tuple[Any, Float]:
     except np.linalg.LinAlgError:  # defective to the last bit
         return values.T.astype(complex), np.full((F.shape[0], len(shift)), np.inf)
     left, right = np.abs(left), np.abs(right)
-    of_F = np.einsum("kij,kjl,kli->ik", left, np.abs(stacked), right)
+    rounded = np.abs(stacked) + np.moveaxis(coupling, -1, 0)
+    of_F = np.einsum("kij,kjl,kli->ik", left, rounded, right)
     of_shift = np.einsum("kij,kji->ik", left, right)
     return values.T.astype(complex), of_F + of_shift * shift
 

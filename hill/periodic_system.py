@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from hill import checks
+from hill.oscillations.steady import mean_frequencies
 from hill.periodic import Fourier, PeriodicEquation
 from hill.system import Parameter
 
@@ -102,17 +103,8 @@ class PeriodicSystem:
         return PeriodicEquation(M=self.M, C=C, K=_pulsating(self.K, share), Omega=Omega)
 
     def natural_frequencies(self) -> Complex:
-        """Of the mean system without C, ascending by real part: complex where that is unstable.
-
-        Of first order: -i s of the eigenvalues s of A_0 with Im s >= 0.
-        """
-        if self.A is not None:
-            s = np.linalg.eigvals(self.A.mean).astype(complex)
-            found = -1j * s[s.imag >= 0.0]
-        else:
-            squares = np.linalg.eigvals(np.linalg.solve(self.M, self.K.mean)).astype(complex)
-            found = np.sqrt(squares)
-        return np.asarray(found[np.lexsort((found.imag, found.real))])
+        """Of the mean system, as `hill.oscillations.steady.mean_frequencies`."""
+        return mean_frequencies(self.equation(Omega=1.0))
 
 
 def _pulsating(matrix: Fourier, share: float) -> Fourier:

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from hill import checks
 from hill.equation import HillEquation
+from hill.oscillations.steady import mean_frequencies
 
 Complex = NDArray[np.complexfloating[Any, Any]]
 Float = NDArray[np.float64]
@@ -129,11 +130,15 @@ def varied(system: Any, values: Mapping[str, float]) -> Any:
 def natural_frequencies(system: System, Omega: float = 1.0) -> Complex:
     """Of the unforced, undamped system, ascending by real part; complex where it is unstable.
 
-    The square roots of F's eigenvalues, F at `Omega`, where the system does not say them itself.
+    The square roots of F's eigenvalues, F at `Omega`, where the system does not say them itself;
+    of a general equation those of its mean.
     """
     if hasattr(system, "natural_frequencies"):
         return np.asarray(system.natural_frequencies(), complex)
-    squares = np.linalg.eigvals(system.equation(Omega, 0.0).F).astype(complex)
+    equation = system.equation(Omega, 0.0)
+    if not isinstance(equation, HillEquation):
+        return mean_frequencies(equation)
+    squares = np.linalg.eigvals(equation.F).astype(complex)
     found = np.sqrt(squares)
     return np.asarray(found[np.lexsort((found.imag, found.real))])
 

@@ -119,7 +119,7 @@ def test_where_flutter_begins_is_a_boundary() -> None:
         COLUMN, [("p", 1.8, 2.3, 20), ("eta", 0.0, 0.02, 20)], forcing={"Omega": 3, "gamma": 0}
     )
     at = [curve for curve in boundaries(c) if np.ptp(curve.x) < 1e-2 and curve.y.min() < 1e-9]
-    (edge,) = (float(curve.x[curve.y.argmin()]) for curve in at if curve.kind == "discriminant")
+    (edge,) = (float(curve.x[curve.y.argmin()]) for curve in at if curve.kind == "pair")
     assert edge == pytest.approx(3.5 - np.sqrt(2.0), abs=1e-8)
 
 
@@ -289,7 +289,10 @@ def test_refusals() -> None:
         def equation(self, *_: Any) -> Any:  # type: ignore[override]
             return "no equation"
 
-    with pytest.raises(ValueError, match=r"Odd\.equation: must give a HillEquation, gave a str"):
+    with pytest.raises(
+        ValueError,
+        match=r"Odd\.equation: must give a HillEquation or a Peri",
+    ):
         chart(Odd(1.0), AXES)
     dashpots = MatrixSystem([[1.0]], [[1.0]])
     damped = type("Damped", (Ziegler,), {})(1.0)

@@ -71,7 +71,7 @@ def test_resonances_are_those_of_section_7_1() -> None:
     third = Resonance(1, 1, 1, 3)
     assert third.name == "(2 omega_(1))/3"
     assert (third.type, third.indicator, Resonance(1, 1, 1, 2).indicator) == ("I", "-1", "+1")
-    assert (Resonance(2, 1).type, Resonance(2, 1).indicator) == ("II", "discriminant")
+    assert (Resonance(2, 1).type, Resonance(2, 1).indicator) == ("II", "pair")
 
 
 def test_a_frequency_that_is_not_real_has_no_resonance() -> None:
@@ -215,7 +215,7 @@ def test_indicators() -> None:
     assert np.allclose(indicator("+1", P, Omega), [0.5, -0.2, 2.1])
     # both z below -1: P(-1) > 0 as in the stable case, and yet unstable
     assert np.allclose(indicator("-1", P, Omega), [0.5, 1.5, -1.0])
-    assert np.allclose(indicator("discriminant", P, Omega), [1.0, 0.49, 0.81])
+    assert np.allclose(indicator("pair", P, Omega), [1.0, 0.49, 0.81])
     assert growth(P, Omega)[0] == pytest.approx(0.0, abs=1e-15)
     assert growth(P, Omega, 0.1)[2] == pytest.approx(np.arccosh(2.0) / np.pi - 0.1)
     c = np.cosh(0.1 * np.pi)

@@ -90,11 +90,12 @@ def test_random_systems(n: int) -> None:
 
 
 def test_special_systems(handed_over: list[HillEquation]) -> None:
-    """None of them needs pivots; those with H are not for this."""
+    """None of the others needs pivots; those with H are not for this, nor a defective F."""
     for equation in SPECIAL.values():
         assert meets_one_by_one(polynomials([equation]), [equation])
-    assert len(handed_over) == sum(bool(e.H) for e in SPECIAL.values()) > 0
-    assert all(e.H for e in handed_over)
+    wanted = [e for name, e in SPECIAL.items() if e.H or name in ("defective F", "nilpotent F")]
+    assert len(wanted) > 2
+    assert handed_over == wanted
 
 
 def test_matrices_need_not_be_shared() -> None:

@@ -34,7 +34,7 @@ def test_edge_functions_are_values_of_P(kind: str, sign: float, eta: float) -> N
 
 def test_the_discriminant_is_that_of_the_roots() -> None:
     P = np.poly([0.3, -0.5, 0.9])[None]
-    found = edge_function("discriminant", P, np.array([1.0]))
+    found = edge_function("pair", P, np.array([1.0]))
     # a quarter for each of three pairs, negative for each of these
     assert found[0] == pytest.approx(-((0.8 * 0.6 * 1.4) ** 2) / 64.0, rel=1e-12)
 

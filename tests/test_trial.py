@@ -193,8 +193,8 @@ def test_edges_are_zeros_of_the_arbiters_functions() -> None:
     assert abs(float(edges.edge_function("+1", at))) > 0.1
     # the squares are rounded: z_1 and z_2 are an ulp or two apart
     meet = HillEquation(np.diag(w**2), np.zeros((2, 2)), 0.0, 2.3)  # w_1 + w_2 = Omega
-    assert abs(float(edges.edge_function("discriminant", meet))) < 1e-28
-    assert abs(float(edges.edge_function("discriminant", at))) > 1e-3
+    assert abs(float(edges.edge_function("pair", meet))) < 1e-28
+    assert abs(float(edges.edge_function("pair", at))) > 1e-3
     # with damping the edge moves from z = -1 to z = -c, where T is 0: P(-c) = -c - z
     for gamma, verdict in ((0.1, "stable"), (0.4, "unstable")):
         own = HillEquation([[1.0025]], [[1.0]], gamma, 2.0, 0.1)
@@ -213,6 +213,6 @@ def test_pairs_that_leave_the_ellipse(eta: float) -> None:
         own = HillEquation(F, G, 0.4, Omega, eta)
         growth = judge.truth(own).growth
         assert growth is not None
-        signs[growth.truth] = float(edges.edge_function("discriminant", own))
+        signs[growth.truth] = float(edges.edge_function("pair", own))
     assert set(signs) == {"stable", "unstable"}
     assert signs["stable"] * signs["unstable"] < 0.0

@@ -172,7 +172,7 @@ def edge_function(kind: str, equation: HillEquation) -> Any:
     with ctx.workprec(BITS):
         angle = arb.pi() * arb(float(equation.eta)) / arb(float(equation.Omega))
         c, s = angle.cosh(), angle.sinh()
-        if kind == "discriminant":
+        if kind == "pair":
             return _pairs(P, c, s)
         at, value = c if kind == "+1" else -c, arb(0)
         for p in P:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from benchmarks.honesty import arbiter
 from benchmarks.honesty.enclosures import BITS
+from benchmarks.honesty.symmetric import truth_of
 from hill import HillEquation
 
 EPS = float(np.finfo(float).eps)
@@ -128,8 +129,12 @@ def truth(equation: HillEquation, narrow: int = arbiter.NARROW) -> Truth:
 
 
 def _growth(P: list[Any], equation: HillEquation) -> arbiter.Growth:
-    eta = None if np.ndim(equation.eta) > 0 else float(equation.eta)
-    return arbiter.judged(P, equation.Omega, eta)
+    if np.ndim(equation.eta) == 0:
+        return arbiter.judged(P, equation.Omega, float(equation.eta))
+    if not np.any(equation.eta):  # multipliers in pairs
+        known = truth_of(equation.general(), P)
+        return arbiter.Growth(known.T, known.verdict)
+    return arbiter.judged(P, equation.Omega, None)
 
 
 def judged(

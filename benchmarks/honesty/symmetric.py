@@ -12,6 +12,7 @@ import numpy as np
 from flint import ctx
 
 from benchmarks.honesty.enclosures import BITS, enclosed, judged
+from benchmarks.honesty.enclosures import Truth as Verdict
 from hill import Fourier, PeriodicEquation
 
 Rng = np.random.Generator
@@ -186,7 +187,7 @@ class Truth:
     """T as a ball, and what is true of an equation that has its symmetry."""
 
     T: Any
-    verdict: str
+    verdict: Verdict
 
 
 def truth_of(e: PeriodicEquation, polynomial: list[Any]) -> Truth:

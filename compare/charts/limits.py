@@ -6,11 +6,12 @@ from typing import Any
 
 import numpy as np
 
-from hill import HillEquation, Singular, checks
+from hill import HillEquation, PeriodicEquation, Singular, checks
 from hill.averaging import fastest_motion
 from hill.system import FORCING, varied
 
 Values = Mapping[str, float]
+Equation = HillEquation | PeriodicEquation
 
 MAX_DECAY = 200.0
 """eta/Omega: exp(-pi eta/Omega) stays above 1e-273."""
@@ -20,7 +21,7 @@ MAX_RADIANS = 3000.0
 fast as that leaves the floats four times over."""
 
 
-def checked(system: Any, values: Values, fixed: Values) -> HillEquation:
+def checked(system: Any, values: Values, fixed: Values) -> Equation:
     """The equation at a point.
 
     Raises
@@ -41,8 +42,9 @@ def checked(system: Any, values: Values, fixed: Values) -> HillEquation:
             "period's decay leaves the floats"
         )
     model = own_equation(there, **forcing)
-    with suppress(Singular):  # the other forcing's own misfortune
-        _check_promise(there, model, forcing)
+    if isinstance(model, HillEquation):
+        with suppress(Singular):  # the other forcing's own misfortune
+            _check_promise(there, model, forcing)
     if not slow_enough(model):
         radians = model.period * fastest_motion(model)
         raise ValueError(
@@ -52,8 +54,10 @@ def checked(system: Any, values: Values, fixed: Values) -> HillEquation:
     return model
 
 
-def slow_enough(model: HillEquation) -> bool:
+def slow_enough(model: Equation) -> bool:
     """Whether the motion turns by no more than `MAX_RADIANS` a period."""
+    if isinstance(model, PeriodicEquation):
+        return model.period * fastest_motion(model) <= MAX_RADIANS
     with np.errstate(over="ignore"):
         largest = np.max(np.abs(model.F)) + abs(model.gamma) * np.max(np.abs(model.G))
         largest += sum(np.max(np.abs(H)) for H in model.H)
@@ -75,8 +79,13 @@ def _check_promise(system: Any, model: HillEquation, forcing: Values) -> None:
         "eta": 0.5 * eta + 0.03125 * Omega,
     }
     other = own_equation(system, **asked)
-    kept = np.array_equal(other.F, model.F) and np.array_equal(other.G, model.G)
-    if not kept or (other.Omega, other.gamma, other.eta) != tuple(asked.values()):
+    kept = (
+        isinstance(other, HillEquation)
+        and np.array_equal(other.F, model.F)
+        and np.array_equal(other.G, model.G)
+        and (other.Omega, other.gamma, other.eta) == tuple(asked.values())
+    )
+    if not kept:
         raise ValueError(
             f"{type(system).__name__}.depends_on_Omega = {moves}: promises F and G that do not "
             f"move with {'' if moves else 'Omega, '}gamma and eta and a forcing as asked for; "
@@ -84,18 +93,18 @@ def _check_promise(system: Any, model: HillEquation, forcing: Values) -> None:
         )
 
 
-def own_equation(system: Any, Omega: float, gamma: float, eta: float) -> HillEquation:
+def own_equation(system: Any, Omega: float, gamma: float, eta: float) -> Equation:
     """The system's own equation.
 
     Raises
     ------
     ValueError
-        It is no `HillEquation`.
+        It is none.
     """
     found = system.equation(Omega, gamma, eta)
-    if not isinstance(found, HillEquation):
+    if not isinstance(found, HillEquation | PeriodicEquation):
         raise ValueError(
-            f"{type(system).__name__}.equation: must give a HillEquation, gave a "
-            f"{type(found).__name__}"
+            f"{type(system).__name__}.equation: must give a HillEquation or a PeriodicEquation, "
+            f"gave a {type(found).__name__}"
         )
     return found

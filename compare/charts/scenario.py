@@ -13,7 +13,8 @@ from compare.charts.axis import Axis
 from compare.charts.limits import checked, own_equation, slow_enough
 from compare.stability.reading import Reading, reading_of
 from floquet.witness import maker
-from hill import HillEquation, Singular, System, checks
+from hill import HillEquation, PeriodicEquation, Singular, System, checks
+from hill.oscillations.steady import mean_frequencies
 from hill.system import (
     FORCING,
     frequency_names,
@@ -26,6 +27,7 @@ from hill.system import (
 Float = NDArray[np.floating[Any]]
 Complex = NDArray[np.complexfloating[Any, Any]]
 Values = Mapping[str, float]
+Equation = HillEquation | PeriodicEquation
 
 POLE_CLEARANCE = 0.25
 """Widths of a box: a series over it whose nearest pole is farther than this converges by 2.6 a
@@ -80,20 +82,20 @@ class Scenario:
         own = {name: float(value) for name, value in values.items() if name not in FORCING}
         return varied(self.system, own), forcing
 
-    def equation(self, values: Values) -> HillEquation:
-        """The system's own equation at a point.
+    def equation(self, values: Values) -> Equation:
+        """The system's own equation at a point, in the form whose polynomial is charted.
 
         Raises
         ------
         Singular
             There is none.
         ValueError
-            The system refuses, or what it gives is no `HillEquation`.
+            The system refuses, or what it gives is no equation.
         """
         system, forcing = self.at(values)
-        return own_equation(system, **forcing)
+        return self.reading.form(own_equation(system, **forcing), forcing["eta"])
 
-    def equations(self, points: Mapping[str, Float], route: str) -> list[HillEquation | None]:
+    def equations(self, points: Mapping[str, Float], route: str) -> list[Equation | None]:
         """The equations at many points, their matrices made once where they are the same.
 
         None where there is no equation, or one whose motion is beyond `limits.MAX_RADIANS`.
@@ -106,8 +108,8 @@ class Scenario:
         """
         make = (maker(self.system) if route == "floquet" else None) or own_equation
         systems: dict[Any, Any] = {}
-        made: dict[Any, HillEquation] = {}
-        found: list[HillEquation | None] = []
+        made: dict[Any, Equation] = {}
+        found: list[Equation | None] = []
         own_names = [name for name in points if name not in FORCING]
         for line in zip(*points.values(), strict=True):
             values = dict(zip(points, map(float, line), strict=True))
@@ -120,21 +122,29 @@ class Scenario:
             key = (own, forcing["Omega"] if moves or moves is None else None)
             known = made.get(key) if moves is not None else None
             try:
-                if known is None or known.H:
-                    one = made[key] = make(system, **forcing)
-                else:
+                if isinstance(known, HillEquation) and not known.H:
                     one = known.forced(**forcing)
+                else:
+                    one = made[key] = self.reading.form(make(system, **forcing), forcing["eta"])
                 found.append(one if slow_enough(one) else None)
             except Singular:
                 found.append(None)
         return found
 
     def frequencies(self, values: Values, Omega: float) -> Complex:
-        """Natural frequencies at a point, ascending; `Omega` is where F is looked at."""
+        """Natural frequencies at a point, ascending; `Omega` is where F is looked at.
+
+        Of a general equation those of its mean, which need not be the system's own.
+        """
+        if self.reading.general:
+            return mean_frequencies(self.equation({**values, "Omega": Omega}))
         return natural_frequencies(self.at({**values, "Omega": Omega})[0], Omega)
 
     def frequency_names(self, count: int) -> tuple[str, ...]:
-        """What the system calls them."""
+        """What the system calls them, where it has as many."""
+        own = getattr(self.system, "frequency_names", None)
+        if self.reading.general and own is not None and len(own) != count:
+            return tuple(str(k) for k in range(1, count + 1))
         return frequency_names(self.system, count)
 
     def singular(self, low: Values, high: Values) -> str | None:
@@ -230,16 +240,20 @@ def scenario(
     found = _equations(system, corners, fixed) or _equations(system, inner, fixed)
     if not found:
         checked(system, corners[0], fixed)  # says why there is none
-    reading = reading_of(found[0])
-    return Scenario(system, drawn, fixed, reading, reading.degree(found[0]))
+    equations, eta = zip(*found, strict=True)
+    reading = reading_of(equations, eta)
+    degree = reading.degree(reading.form(equations[0], eta[0]))
+    return Scenario(system, drawn, fixed, reading, degree)
 
 
-def _equations(system: System, points: list[dict[str, float]], fixed: Values) -> list[HillEquation]:
-    """Those that there are; `checked` refuses what cannot be charted."""
+def _equations(
+    system: System, points: list[dict[str, float]], fixed: Values
+) -> list[tuple[Equation, float]]:
+    """Those that there are, and their eta; `checked` refuses what cannot be charted."""
     found = []
     for values in points:
         with suppress(Singular):
-            found.append(checked(system, values, fixed))
+            found.append((checked(system, values, fixed), {**fixed, **values}["eta"]))
     return found
 
 

@@ -36,7 +36,7 @@ class Curve:
 
     Attributes
     ----------
-    kind : {"+1", "-1", "discriminant"}
+    kind : {"+1", "-1", "pair"}
         What vanishes: P(c), P(-c), c = cosh(pi eta/Omega), or the product over pairs of z of
         `compare.stability.indicators.edge_function`.
     x, y : (k,) ndarray

@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 
 from compare.stability.indicators import TAIL
 from compare.stability.reading import IN_Z, Reading
-from hill import HillEquation
 from hill.averaging import modal
 
 Float = NDArray[np.floating[Any]]
@@ -23,13 +22,13 @@ class PolynomialField:
     Attributes
     ----------
     equation : callable
-        (Omega, y) to a `HillEquation`.
+        (Omega, y) to a `HillEquation`, or what else the reading reads.
     polynomial : callable
-        A `HillEquation` to the coefficients of P, highest power first.
+        An equation to the coefficients of P, highest power first.
     """
 
-    equation: Callable[[float, float], HillEquation]
-    polynomial: Callable[[HillEquation], Float]
+    equation: Callable[[float, float], Any]
+    polynomial: Callable[[Any], Float]
 
     @property
     def reading(self) -> Reading:

@@ -14,7 +14,8 @@ from compare.edges.interpolated import InterpolatedField, axes_of, on_surface
 from compare.edges.on_chart import ORDERS, merged, stations, tongues
 from compare.edges.tongue import Tongue
 from compare.stability.indicators import ZERO_SHARE, ZERO_TO
-from hill.averaging import Resonance, critical_gamma, half_width
+from hill.averaging import Resonance
+from hill.oscillations.expected import critical_gamma, damping, half_width
 
 Float = NDArray[np.floating[Any]]
 EdgeFunction = Callable[[Float, Float, float], Float]
@@ -45,7 +46,8 @@ class Instability:
         Where the tongue is widest, apart from where it has run into another; the following numbers
         are taken there.
     width, width_Hsu : float
-        Its width there, and to first order in gamma (0 for k > 1: of higher order).
+        Its width there, and what averaging expects: of Hill's equation to first order in gamma, 0
+        for k > 1.
     T, T_error, Omega : float
         The largest T there, a bound on its error, and where.
     critical_gamma, critical_gamma_Hsu : float
@@ -103,7 +105,8 @@ def _described(
     resonance, widest = tongue.resonance, int(np.argmax(own))
     y, low, high = (float(v[widest]) for v in (tongue.y, tongue.lower, tongue.upper))
     equation = curves.equation(0.5 * (low + high), y)
-    eta = equation.damping
+    eta = damping(resonance, equation)
+    _, forcing = chart.scenario.at({"Omega": 0.5 * (low + high), y_axis.name: y})
     at = np.linspace(low, high, INSIDE)
     P, errors = curves.known(at, y)
     T = curves.reading.growth(P, at, eta)
@@ -119,7 +122,9 @@ def _described(
         tips=tips,
         y=y,
         width=high - low,
-        width_Hsu=2.0 * half_width(resonance, equation) if resonance.order == 1 else 0.0,
+        width_Hsu=2.0 * half_width(resonance, equation)
+        if resonance.order == 1 or curves.reading.general
+        else 0.0,
         T=float(T.max()),
         T_error=float(
             curves.reading.argument_errors(P[top], errors[top], T[top], at[top], np.array([eta]))[0]
@@ -128,7 +133,7 @@ def _described(
         critical_gamma=tips[0][1]
         if y_axis.name == "gamma" and eta > 0.0 and tips
         else float("nan"),
-        critical_gamma_Hsu=critical_gamma(resonance, equation),
+        critical_gamma_Hsu=critical_gamma(resonance, equation, forcing["gamma"]),
     )
 
 
@@ -149,7 +154,7 @@ def _edge_error(curves: InterpolatedField, tongue: Tongue) -> Float:
     worst = np.full(len(tongue.y), found_to)
     for k, y in enumerate(map(float, tongue.y)):
         for Omega in map(float, (tongue.lower[k], tongue.upper[k])):
-            eta = curves.equation(Omega, y).damping
+            eta = damping(tongue.resonance, curves.equation(Omega, y))
             step = SLOPE * Omega
             nearby = Omega + step * np.array([-1.0, 0.0, 1.0])
             P, errors = curves.known(nearby, y)

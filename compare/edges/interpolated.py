@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from compare.charts import chebyshev
 from compare.charts.axis import Axis, from_smooth
 from compare.charts.result import Chart, directly
-from compare.charts.scenario import singular_across
+from compare.charts.scenario import Equation, singular_across
 from compare.charts.surface import Piece, fit
 from compare.edges.field import PolynomialField
 from compare.stability.indicators import BESIDE_POLE, TAIL, NotSmooth
@@ -158,15 +158,16 @@ def on_surface(chart: Chart, low: float = np.inf, high: float = 0.0) -> Interpol
     keep = getattr(chart.system, "depends_on_Omega", True) is False
 
     @lru_cache(maxsize=SECTIONS)
-    def matrices(value: float) -> HillEquation:
+    def matrices(value: float) -> Equation:
         return chart.scenario.equation({"Omega": Omega_axis.high, y.name: value})
 
-    def equation(Omega: float, value: float) -> HillEquation:
+    def equation(Omega: float, value: float) -> Equation:
         values = {"Omega": Omega, y.name: value}
-        if not keep or matrices(value).H:
-            return chart.scenario.equation(values)
-        # F and G do not know Omega
-        return matrices(value).forced(**chart.scenario.at(values)[1])
+        known = matrices(value) if keep else None
+        if isinstance(known, HillEquation) and not known.H:
+            # F and G do not know Omega
+            return known.forced(**chart.scenario.at(values)[1])
+        return chart.scenario.equation(values)
 
     along_y = 1 - chart.axes.index(Omega_axis)
     pieces = (*chart.surface.pieces, *_beside(chart, low, high))

@@ -36,8 +36,9 @@ from compare.stability.indicators import (
     edges,
     interpolate_in_Omega,
 )
-from hill import HillEquation, Singular
-from hill.averaging import Resonance, half_width
+from hill import HillEquation, PeriodicEquation, Singular
+from hill.averaging import Resonance
+from hill.oscillations.expected import damping, half_width, strength
 
 Float = NDArray[np.floating[Any]]
 
@@ -81,7 +82,7 @@ class TongueTracer:
         if equation is None:
             return None
         undamped = half_width(self.resonance, equation, damped=False)
-        reach = 2.0**DOUBLINGS * (REACH * undamped + SHIFT * equation.gamma**2 * Omega)
+        reach = 2.0**DOUBLINGS * (REACH * undamped + SHIFT * strength(equation) ** 2 * Omega)
         low, high = max(Omega - reach, MIN_SHARE * Omega), min(Omega + reach, Omega / MIN_SHARE)
         return (low, high) if low <= self.within[1] and high >= self.within[0] else None
 
@@ -94,11 +95,12 @@ class TongueTracer:
             return Gap(RANGE)
         width, undamped = (half_width(self.resonance, equation, damped=d) for d in (True, False))
         low, high = expected or (-width, width)
-        reach = REACH * max(undamped, 0.5 * (high - low)) + SHIFT * equation.gamma**2 * Omega
+        reach = REACH * max(undamped, 0.5 * (high - low)) + SHIFT * strength(equation) ** 2 * Omega
+        eta = damping(self.resonance, equation)
         section: Section | None = None
         for _ in range(DOUBLINGS + 1):
             try:
-                section = self._within(y, Omega, (low, high), reach, equation.damping)
+                section = self._within(y, Omega, (low, high), reach, eta)
             except NotSmooth as reason:
                 return Gap(reason.why)
             # unstable, but edges out of sight: the tongue is wider than first order makes it
@@ -112,7 +114,7 @@ class TongueTracer:
             return Gap(BESIDE_POLE)
         return section
 
-    def _at(self, y: float) -> tuple[float, HillEquation | None]:
+    def _at(self, y: float) -> tuple[float, HillEquation | PeriodicEquation | None]:
         """The resonance and the equation there; none where it is not real, or on a pole."""
         Omega = self.Omega(y)
         if not Omega > 0.0:

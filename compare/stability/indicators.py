@@ -103,12 +103,12 @@ def indicator(kind: str, P: Float, Omega: Float, eta: float = 0.0) -> Float:
     At T = 0 R = exp(pi eta/Omega): a real z is at +-c, c = cosh(pi eta/Omega), or 1 undamped.
 
     "+1", "-1": how far the real parts of all z keep within c, or -c. Zero where P(c) is, but unlike
-    it negative also where two z are beyond. "discriminant": of P; with damping, -T of the complex
-    pair of z alone.
+    it negative also where two z are beyond. "pair": the discriminant of P; with
+    damping, -T of the complex pair of z alone.
 
     Parameters
     ----------
-    kind : {"+1", "-1", "discriminant"}
+    kind : {"+1", "-1", "pair"}
     P : (k, n + 1) ndarray
     Omega : (k,) ndarray
     eta : float, optional
@@ -128,20 +128,20 @@ def indicator(kind: str, P: Float, Omega: Float, eta: float = 0.0) -> Float:
 def edge_function(kind: str, P: Float, Omega: Float, eta: float | Float = 0.0) -> Float:
     """A function that is smooth in P and Omega and vanishes on the edges of this kind.
 
-    "+1", "-1": P(c) and P(-c), c = cosh(pi eta/Omega). "discriminant": over all pairs of z, the
+    "+1", "-1": P(c) and P(-c), c = cosh(pi eta/Omega). "pair": over all pairs of z, the
     product of what is zero where x +- i y with x + i y + x - i y = z_i + z_j lie on the ellipse
     R = exp(pi eta/Omega), that is x^2/c^2 + y^2/s^2 = 1, s = sinh(pi eta/Omega). It is symmetric in
     the z, so a polynomial in P's coefficients; undamped it is the discriminant, up to a factor.
 
     Parameters
     ----------
-    kind : {"+1", "-1", "discriminant"}
+    kind : {"+1", "-1", "pair"}
     P : (k, n + 1) ndarray
     Omega : (k,) ndarray
     eta : float or (k,) ndarray, optional
     """
     c, s = np.cosh(np.pi * eta / Omega), np.sinh(np.pi * eta / Omega)
-    if kind != "discriminant":
+    if kind != "pair":
         at = c if kind == "+1" else -c
         value = np.zeros_like(at)
         for coefficient in P.T:

@@ -23,12 +23,14 @@ class Points:
     Attributes
     ----------
     polynomial : (k, n + 1) ndarray
-        P(z), monic, highest power first.
+        P(z), or P(mu) of the multipliers, monic, highest power first.
     error : (k,) ndarray
         Bound on the absolute error of its coefficients.
     z : (k, n) complex ndarray
+        Empty, (k, 0), where P is of the multipliers.
+    multipliers : (k, m) complex ndarray
     R : (k,) ndarray
-        Largest |z +- sqrt(z^2 - 1)|, (7.1.2).
+        Largest |z +- sqrt(z^2 - 1)|, (7.1.2); without z the largest multiplier's modulus.
     T : (k,) ndarray
         Characteristic argument (7.1.1).
     T_error : (k,) ndarray
@@ -40,6 +42,7 @@ class Points:
     polynomial: Float
     error: Float
     z: Complex
+    multipliers: Complex
     R: Float
     T: Float
     T_error: Float
@@ -60,10 +63,13 @@ def solve(polynomial: Float, error: Float, Omega: Float, eta: Float) -> Points:
     """Roots and growth of many P(z), (k, n + 1), each with its own error, Omega and eta."""
     errors = np.broadcast_to(error[:, None], polynomial.shape)
     found = stabilities(polynomial, errors, Omega, eta)
+    root = np.sqrt(found.z - 1.0) * np.sqrt(found.z + 1.0)
+    decay = np.exp(-np.pi * eta / Omega)[:, None]
     return Points(
         polynomial=polynomial,
         error=error,
         z=found.z,
+        multipliers=decay * np.hstack([found.z + root, found.z - root]),
         R=np.exp((found.T + eta) * np.pi / Omega),
         T=found.T,
         T_error=found.T_error,

@@ -44,6 +44,22 @@ class Steady:
         return np.asarray(self.exponents.imag[list(self.oscillations)])
 
 
+def mean_frequencies(equation: HillEquation | PeriodicEquation) -> Complex:
+    """Frequencies of an equation without its pulsation, ascending, one for two multipliers.
+
+    Real where an oscillation decays or stays, complex where it grows, -i times its exponent; 0 of
+    what does not oscillate and does not grow.
+    """
+    exponents = np.linalg.eigvals(mean_matrix(equation))
+    # one of each pair; of real exponents every second one, descending
+    turning = np.abs(exponents.imag) > OSCILLATES * np.abs(exponents)
+    real = np.sort(exponents[~turning].real)[::-1][: (len(exponents) - np.sum(turning)) // 2]
+    own = np.append(exponents[turning & (exponents.imag > 0.0)], real)
+    grows = own.real > OSCILLATES * np.abs(own)
+    found = np.where(grows, -1j * own, own.imag)
+    return np.asarray(found[np.lexsort((found.imag, found.real))])
+
+
 def steady(equation: HillEquation | PeriodicEquation) -> Steady:
     """What an equation does without its pulsation."""
     exponents, left, right = eig(mean_matrix(equation), left=True, right=True)

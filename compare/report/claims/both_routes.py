@@ -152,7 +152,7 @@ def _margin(route: RouteName, beam: Beam, gamma: float, eta: float) -> Any:
 
     def least(Omega: Float) -> Float:
         P = solve(route, [equation(route, beam, float(x), gamma, eta) for x in Omega])
-        kinds = ("+1", "-1", "discriminant")
+        kinds = ("+1", "-1", "pair")
         return np.min([indicator(kind, P, Omega, eta) for kind in kinds], axis=0)
 
     return least

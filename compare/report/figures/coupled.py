@@ -50,7 +50,7 @@ def windows(omega_L: float) -> tuple[Window, ...]:
     first, second = "2 omega_(1) and omega_L", "2 omega_L"
     return (
         Window(first, "-1", omega_L, 0.75 * omega_L, 1.2 * omega_L),
-        Window(second, "discriminant", 2.0 * omega_L, 1.95 * omega_L, 2.05 * omega_L),
+        Window(second, "pair", 2.0 * omega_L, 1.95 * omega_L, 2.05 * omega_L),
     )
 
 
