@@ -33,8 +33,9 @@ class Monodromy:
     matrix_error : (n, n) or (m, m) float ndarray
         Bound on the error of each element of A; or of `matrix`.
     data_error : float
-        What the equation's own `data_error` may add to `errors`, to first order; 0 where it has
-        none.
+        What the equation's own `data_error` may add to `errors`; 0 where it has none. An estimate
+        with a safety factor, to first order: the rounding of 66 random beams moved P by .007 of it
+        at most.
     z : (n,) complex ndarray
         cos 2 pi alpha, by descending real part; empty where there is none.
     T : float

@@ -16,6 +16,7 @@ from hill.beam_common import (
     MAX_G,
     MAX_MODES,
     RESONANCE_ULPS,
+    SMALLEST,
     forcing,
     frequencies,
     matrix_error,
@@ -152,19 +153,20 @@ class UniformBeam:
             refuse_resonance(resonant, Omega, self.omega_L)
         damped = np.sqrt(sigma**2 - 1j * self.g) if self.g else sigma
         beam = (self.modes, self.T0)
+        G = uniform.pulsating(*beam, self.K_theta, self.xi_G, damped)
+        late = uniform.out_of_phase(*beam, damped) if self.g else np.zeros_like(G)
+        hidden = float(np.max(np.abs(late)) / max(np.max(np.abs(G)), SMALLEST))
         made = HillEquation(
             F=uniform.steady(*beam, self.K_theta, self.xi_G),
-            G=uniform.pulsating(*beam, self.K_theta, self.xi_G, damped),
+            G=G,
             gamma=gamma,
             Omega=Omega,
             eta=checks.number("eta", eta),
             H=[uniform.free_vibration(*beam, gamma, sigma, s) for s in range(1, terms + 1)],
             omega_L=self.omega_L,
-            data_error=matrix_error(np.pi * abs(damped), abs(np.sin(np.pi * damped))),
+            data_error=matrix_error(np.pi * abs(damped), abs(np.sin(np.pi * damped)), hidden),
         )
-        if not self.quadrature_force:
-            return made
-        return with_sine(made, -gamma * uniform.out_of_phase(*beam, damped))
+        return with_sine(made, -gamma * late) if self.quadrature_force else made
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -275,7 +277,7 @@ class SteppedBeam:
             Omega=Omega,
             eta=checks.number("eta", eta),
             omega_L=self.omega_L,
-            data_error=matrix_error(nu, abs(inverse_beta)),
+            data_error=matrix_error(nu, abs(inverse_beta), steep=self._steep(sigma)),
         )
 
     def _steady(self) -> Float:
@@ -288,3 +290,11 @@ class SteppedBeam:
     def _thrust(self, sigma: float) -> Float:
         step = (self.xi_c, self.area_ratio)
         return stepped.thrust(self.modes, self.T0, self.K_theta, self.xi_G, *step, sigma)
+
+    def _steep(self, sigma: float) -> float:
+        """What the reduction makes of an ulp."""
+        step, still = (self.modes, self.xi_c, self.inertia_ratio), self._thrust(0.0)
+        mass = self._mass(), 1.0 + self.area_ratio
+        of_F = stepped.bending(*step) + still, stepped.bending_size(*step) + np.max(np.abs(still))
+        of_G = (moves := self._thrust(sigma)), float(np.max(np.abs(moves)))
+        return max(stepped.amplification(mass, load) for load in (of_F, of_G))

@@ -40,6 +40,12 @@ def bending(modes: int, xi_c: float, inertia_ratio: float) -> Float:
     return (inertia_ratio * ahead + behind) / eigenvalue(1) ** 4
 
 
+def bending_size(modes: int, xi_c: float, inertia_ratio: float) -> float:
+    """Size of what an element of it sums: a short section is what is left of the whole beam."""
+    whole = np.max(np.abs(bending(modes, xi_c, 1.0)))
+    return float((1.0 + inertia_ratio) * whole)
+
+
 @lru_cache(maxsize=512)
 def _bends(modes: int, a: float, b: float) -> Float:
     """Integrals of w_j'' w_k'' over [a, b]."""
@@ -128,6 +134,20 @@ def force_resonances(least: float, most: float, xi_c: float, area_ratio: float) 
     whole = range(max(round(least), 1), round(most) + 1)
     found = [brentq(stiffness, k - 0.5, k + 0.5, xtol=1e-14) for k in whole]
     return np.array([sigma for sigma in found if least <= sigma <= most])
+
+
+def amplification(mass: tuple[Float, float], load: tuple[Float, float]) -> float:
+    """What A^-1 B is off, over its largest element, if A and B are off by an ulp of their sizes.
+
+    To first order |A^-1| (|dA| |A^-1 B| + |dB|). With A and B their sizes: of what their elements
+    sum, and so more than they are where one section is light, weak or short.
+    """
+    (A, size), (B, load_size) = mass, load
+    whole = np.abs(np.linalg.solve(A, B))
+    moved = size * whole.sum(axis=0) + load_size
+    rows = np.abs(np.linalg.inv(A)).sum(axis=1)
+    largest = np.max(whole[:-1, :-1])
+    return float(np.max(rows[:-1]) * np.max(moved[:-1]) / largest) if largest else 0.0
 
 
 def reduce(mass_matrix: Float, load: Float) -> Float:
