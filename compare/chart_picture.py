@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from compare.chart_files import about
+from compare.chart_ticks import ticks_in_cycles
 from compare.charts.result import Chart
 from compare.edges.curves import Curve
 from compare.edges.tongue import Tongue
@@ -61,6 +62,7 @@ def picture(
     title: str = "",
     marks: Sequence[Mark] = (),
     marks_label: str = "marked",
+    in_cycles: str = "",
 ) -> bytes:
     """The chart as PNG or SVG.
 
@@ -77,6 +79,8 @@ def picture(
     marks : sequence of Mark, optional
     marks_label : str, optional
         What the legend calls them.
+    in_cycles : str, optional
+        What Omega's axis is called, in cycles per unit of time; in radians where nothing is said.
 
     Raises
     ------
@@ -110,6 +114,8 @@ def picture(
         axes.set(xlim=(x.low, x.high), ylim=(y.low, y.high))
         axes.set_xlabel(symbol(x.name))
         axes.set_ylabel(symbol(y.name))
+        if in_cycles:
+            ticks_in_cycles(axes, x.name, in_cycles)
         axes.set_title(_title(chart, title), fontsize=8, loc="left")
         buffer = io.BytesIO()
         metadata = picture_metadata(about(chart), kind)

@@ -2,15 +2,27 @@
 
 import argparse
 import math
+from collections.abc import Mapping
+from importlib.util import find_spec
 from pathlib import Path
 
 from compare import system_file
+from compare.chart_picture import NO_PICTURES
 from compare.commands.asked import settings
 from compare.commands.terminal import deliver, stages, terminal
 from compare.console import as_file
-from compare.output import check_writable
+from compare.output import check_apart, check_writable, write_whole
+from compare.vehicle.charted import check_charted, drawn
 from compare.vehicle.convergence import FEWEST
-from compare.vehicle.study import CLOSELY, FEW_MODES, MORE, MORE_MANY, WITNESSED, study
+from compare.vehicle.study import (
+    CLOSELY,
+    FEW_MODES,
+    MORE,
+    MORE_MANY,
+    NO_PULSATION,
+    WITNESSED,
+    study,
+)
 from compare.vehicle.write import as_json, markdown, text
 from hill import Vehicle, checks
 
@@ -20,6 +32,7 @@ examples:
   verify vehicle mine.toml
   verify vehicle mine.toml --range 2 40 --set gamma=0.2
   verify vehicle mine.toml --format json
+  verify vehicle mine.toml --chart mine.png
 
 The first line says whether the vehicle is safe at the file's operating
 pulsation (forcing.Omega, in radians per unit of time), the second what the
@@ -63,6 +76,12 @@ def configure(p: argparse.ArgumentParser) -> None:
         help=f"and those of them that the time domain is asked about (default {WITNESSED})",
     )
     p.add_argument(
+        "--chart",
+        type=Path,
+        metavar="FILE",
+        help="draw T over the frequency and the ratio of the pulsation there, as .png or .svg",
+    )
+    p.add_argument(
         "--more-modes",
         type=int,
         metavar="K",
@@ -91,8 +110,7 @@ def run(options: argparse.Namespace) -> int:
         if not 0.0 <= low < high:
             raise ValueError(f"--range {low:g} {high:g}: must ascend, from 0 on")
         span = (2.0 * math.pi * low, 2.0 * math.pi * high)
-    if options.output is not None:
-        check_writable(options.output)
+    _check_files(options, vehicle, found.forcing)
     with stages() as stage:
         result = study(
             vehicle,
@@ -108,6 +126,9 @@ def run(options: argparse.Namespace) -> int:
             else checks.count("--more-modes", options.more_modes, least=FEWEST, most=20),
             stage=stage,
         )
+        if options.chart is not None:
+            picture = drawn(found.title, result, options.chart.suffix[1:], stage)
+            write_whole(options.chart, picture)
     kind = options.format or (options.output.suffix[1:] if options.output else "text")
     if kind in ("json", "md"):
         content = (as_json if kind == "json" else markdown)(found.title, result)
@@ -118,3 +139,19 @@ def run(options: argparse.Namespace) -> int:
         content = as_file(lambda console: text(found.title, result, console), 120)
     deliver(content, options.output)
     return int(not result.routes_agree)
+
+
+def _check_files(
+    options: argparse.Namespace, vehicle: Vehicle, forcing: Mapping[str, float]
+) -> None:
+    """Refuse what could not be written or drawn, before anything is computed."""
+    for path in (options.output, options.chart):
+        if path is not None:
+            check_writable(path)
+    check_apart(output=options.output, chart=options.chart)
+    if options.chart is not None:
+        if find_spec("matplotlib") is None:
+            raise ValueError(NO_PICTURES)
+        if forcing["gamma"] == 0.0:
+            raise ValueError(NO_PULSATION)
+        check_charted(vehicle, forcing["gamma"], forcing.get("eta", 0.0), options.chart)

@@ -36,6 +36,9 @@ SETTLING_MANY, MORE_MANY = 3, 3
 WITNESSED = 6
 
 
+NO_PULSATION = "gamma = 0: must not be 0, there is no parametric resonance without it"
+
+
 @dataclass(frozen=True, eq=False)
 class Row:
     """One resonance.
@@ -186,7 +189,7 @@ def study(
         `gamma` is 0; whatever is out of range.
     """
     if gamma == 0.0:
-        raise ValueError("gamma = 0: must not be 0, there is no parametric resonance without it")
+        raise ValueError(NO_PULSATION)
     scale = Omega or 1.0
     alone = steady(vehicle.equation(scale, 0.0, eta))
     frequencies = alone.frequencies

@@ -1,0 +1,122 @@
+"""A study's chart: what it holds, that its axis is in cycles, and what is refused."""
+
+from math import pi
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from compare import crosscheck
+from compare.__main__ import main
+from compare.chart_ticks import ticks_in_cycles
+from compare.vehicle import charted as module
+from compare.vehicle.charted import charted
+from compare.vehicle.study import study
+from hill import Damping, Vehicle
+
+pytest.importorskip("skfem")
+matplotlib = pytest.importorskip("matplotlib")
+
+EXAMPLES = Path(__file__).parent.parent / "examples"
+UNIFORM = str(EXAMPLES / "uniform.toml")
+
+
+@pytest.fixture(autouse=True)
+def few_points(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(module, "COUNTS", (60, 30))
+
+
+def test_the_chart_is_the_vehicles_own() -> None:
+    """Its own damping counts, though a chart takes it from the forcing."""
+    v = Vehicle.from_file(UNIFORM)
+    found = study(v, gamma=0.15, Omega=2.0 * pi, span=(6.0, 8.0), orders=1, witness=0, more=3)
+    made, edges = charted(found, lambda *_: None)
+    Omega, gamma = made.axes
+    assert (Omega.low, Omega.high) == (6.0, 8.0)
+    assert gamma.high == pytest.approx(0.45)
+    assert made.routes_agree
+    unstable = np.argwhere(made.unstable())
+    assert len(unstable)
+    for k, j in (unstable[0], unstable[-1], (0, 0)):
+        at = {"Omega": Omega.points[j], "gamma": gamma.points[k]}
+        x = crosscheck(v, **at)
+        assert made.T[k, j] == pytest.approx(x.T, abs=1e-8)
+        assert made.verdict()[k, j] == x.verdict
+    (own,) = (e for e in edges if e.resonance.name == "omega_(1) + omega_(B)")
+    row = next(r for r in found.rows if r.resonance == own.resonance)
+    # between a tongue's points it is interpolated
+    assert own.at(0.15) == pytest.approx(row.band.edges, abs=0.01 * row.band.width)
+    assert row.critical == pytest.approx(float(own.y[0]), rel=1e-3)
+
+
+@pytest.mark.parametrize("x", ["Omega", "gamma"])
+def test_ticks_are_round_in_cycles(x: str) -> None:
+    from matplotlib.figure import Figure
+
+    axes = Figure().add_subplot()
+    (axes.set_xlim if x == "Omega" else axes.set_ylim)(2.0 * pi * 0.13, 2.0 * pi * 5.4)
+    ticks_in_cycles(axes, x, "pulsation, Hz")
+    axis = axes.xaxis if x == "Omega" else axes.yaxis
+    labels = [label.get_text() for label in axis.get_ticklabels()]
+    assert labels[:3] == ["1", "2", "3"] or labels[:3] == ["0.5", "1", "1.5"]
+    assert axis.get_majorticklocs() == pytest.approx([2.0 * pi * float(t) for t in labels])
+    assert axis.get_label_text() == "pulsation, Hz"
+
+
+@pytest.mark.parametrize("kind", ["png", "svg"])
+def test_the_command_draws_it(kind: str, tmp_path: Path) -> None:
+    path = tmp_path / f"chart.{kind}"
+    words = ["vehicle", UNIFORM, "--range", "0.9", "1.3", "--order", "1", "--both", "0"]
+    assert main([*words, "--more-modes", "3", "--chart", str(path)]) == 0
+    start = path.read_bytes()[:8]
+    assert start == b"\x89PNG\r\n\x1a\n" if kind == "png" else start.startswith(b"<?xml")
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        ([UNIFORM, "--chart", "c.pdf"], "--chart c.pdf: must end in .png or .svg"),
+        ([UNIFORM, "--chart", "gone/c.png"], "cannot be written"),
+        ([UNIFORM, "--chart", "c.png", "--set", "gamma=0"], "gamma = 0: must not be 0"),
+        ([UNIFORM, "--chart", "c.png", "--output", "c.png"], "c.png"),
+    ],
+)
+def test_refused_before_the_work(
+    words: list[str], message: str, capsys: pytest.CaptureFixture[str], monkeypatch: Any
+) -> None:
+    monkeypatch.setattr("compare.commands.vehicle.study", None)
+    assert main(["vehicle", *words]) == 2
+    caught = capsys.readouterr()
+    assert caught.out == ""
+    assert message in caught.err
+    assert len(caught.err.strip().splitlines()) == 1
+
+
+def test_a_general_vehicle_has_a_chart_or_one_clear_line(
+    capsys: pytest.CaptureFixture[str], monkeypatch: Any, tmp_path: Path
+) -> None:
+    """Rates, modal damping and a servo make a general equation."""
+
+    class Reached(Exception):
+        pass
+
+    def reached(*_: Any, **__: Any) -> None:
+        raise Reached
+
+    monkeypatch.setattr("compare.commands.vehicle.study", reached)
+    words = ["vehicle", str(EXAMPLES / "three_stage.toml"), "--chart", str(tmp_path / "c.png")]
+    try:
+        assert main(words) == 2
+    except Reached:  # charts of general equations are there
+        return
+    caught = capsys.readouterr()
+    assert "a general periodic equation, of which there is no chart yet" in caught.err
+    assert len(caught.err.strip().splitlines()) == 1
+
+
+def test_damping_of_its_own_is_moved_to_the_forcing() -> None:
+    v = Vehicle.from_file(UNIFORM)
+    system, forcing = module._as_charts_have_it(v, 0.01)
+    assert system.damping == Damping()
+    assert forcing == {"eta": 0.01 + v.damping.eta}
