@@ -92,6 +92,7 @@ def _run(words: list[str]) -> int:
     command: Any = import_module(f"compare.commands.{name}")
     options = _parser(command, program, name).parse_args(words)
     from compare.jobs.workers import WorkersError
+    from compare.system_code import place_of
 
     heard: list[signal.Signals] = []
 
@@ -109,9 +110,14 @@ def _run(words: list[str]) -> int:
         # a library may make an error of its own of it, and workers may be ended by it too
         if heard:
             raise _Signalled(heard[0]) from None
-        if not isinstance(error, (ValueError, OverflowError, MemoryError, WorkersError)):
+        if isinstance(error, (ValueError, OverflowError, MemoryError, WorkersError)):
+            _say(program, " ".join(str(error).split()) or "out of memory")
+            return 2
+        place = place_of(error)
+        if not place:
             raise
-        _say(program, " ".join(str(error).split()) or "out of memory")
+        # a mistake in somebody's own class
+        _say(program, place)
         return 2
     if heard:
         # ... or swallow it

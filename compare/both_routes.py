@@ -120,6 +120,11 @@ def crosscheck(
         if value is None:
             raise ValueError(f"{name}: has no value; a system needs a forcing")
     own = what.equation(Omega, gamma, eta)
+    if not isinstance(own, HillEquation | PeriodicEquation):
+        raise ValueError(
+            f"{type(what).__name__}.equation: gave a {type(own).__name__}, must give a "
+            "HillEquation or a PeriodicEquation"
+        )
     make, rougher = maker(what), rougher_maker(what)
     other = make(what, Omega, gamma, eta) if make else own
     rough = rougher(what, Omega, gamma, eta) if rougher else None

@@ -1,6 +1,6 @@
 """Matrices given row by row, or by the name of a file that holds them."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +11,9 @@ from hill import Fourier, checks
 from hill.toml import one_of, only, table, unreadable
 
 Float = NDArray[np.float64]
+
+MOST_ROWS = 5000
+"""Of a matrix: a full one takes 200 MB, and no route ends with it."""
 
 
 def matrix(name: str, value: Any, folder: Path) -> Float:
@@ -50,12 +53,20 @@ def _npz(path: Path, array: str) -> Any:
     from zipfile import BadZipFile
 
     try:
-        with np.load(path, allow_pickle=False) as archive:
-            if not hasattr(archive, "files"):
-                raise ValueError(f"{path.name}: is not an .npz archive")
-            return _named({name: archive[name] for name in archive.files}, array, path)
-    except BadZipFile:
-        raise ValueError(f"{path.name}: is not an .npz archive") from None
+        archive = np.load(path, allow_pickle=False)
+    except (BadZipFile, EOFError, ValueError):
+        archive = None
+    if not hasattr(archive, "files"):
+        raise ValueError(f"{path.name}: is not an .npz archive")
+    with archive:
+        # of the others nothing is read
+        name = _named({name: name for name in archive.files}, array, path)
+        try:
+            return archive[name]
+        except ValueError:
+            raise ValueError(f"{path.name}: {array} is no array of numbers") from None
+        except (BadZipFile, EOFError):
+            raise ValueError(f"{path.name}: {array} cannot be read, the file is damaged") from None
 
 
 def _mat(path: Path, array: str) -> Any:
@@ -63,7 +74,7 @@ def _mat(path: Path, array: str) -> Any:
     from scipy.io.matlab import MatReadError
 
     try:
-        return _dense(_named(loadmat(str(path)), array, path))
+        return _dense(_named(loadmat(str(path)), array, path), path)
     except NotImplementedError:
         raise ValueError(
             f"{path.name}: is a .mat file of version 7.3; save it as version 7 (save -v7)"
@@ -73,15 +84,30 @@ def _mat(path: Path, array: str) -> Any:
 
 
 def _mtx(path: Path, _: str) -> Any:
-    from scipy.io import mmread
+    from scipy.io import mminfo, mmread
 
-    if not path.exists():
+    if not path.is_file():
         raise FileNotFoundError(2, "no such file or directory")
-    return _dense(mmread(str(path)))
+    try:
+        _check_size(mminfo(str(path))[:2], path)
+        return _dense(mmread(str(path)), path)
+    except ValueError as error:
+        words = str(error).removeprefix(f"{path.name}: ")
+        raise ValueError(f"{path.name}: {words}") from None
 
 
-def _dense(found: Any) -> Any:
-    return found.toarray() if hasattr(found, "toarray") else found
+def _dense(found: Any, path: Path) -> Any:
+    if not hasattr(found, "toarray"):
+        return found
+    _check_size(found.shape, path)
+    return found.toarray()
+
+
+def _check_size(shape: Sequence[int], path: Path) -> None:
+    """Refuse before it is written out what would not fit."""
+    if max(shape) > MOST_ROWS:
+        size = " x ".join(f"{count:,}" for count in shape)
+        raise ValueError(f"{path.name}: is {size}, must have at most {MOST_ROWS:,} rows")
 
 
 def periodic(name: str, value: Any, folder: Path) -> Float | Fourier:

@@ -1,15 +1,17 @@
 """A system from somebody's own Python file: the class that a TOML file names."""
 
 import sys
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import fields, is_dataclass
 from importlib import import_module, invalidate_caches
 from importlib.util import find_spec
+from inspect import signature
 from math import inf
 from pathlib import Path
+from traceback import extract_tb
 from typing import Any
 
-from hill import System, checks
+from hill import Parameter, System, checks
 from hill.toml import only
 
 
@@ -43,11 +45,14 @@ def system(own: Mapping[str, Any], folder: Path) -> Any:
         only(values, [f.name for f in fields(kind) if f.init], "system.")
     try:
         made = kind(**values)
-    except TypeError as error:
+    except ValueError as error:
         raise ValueError(f"system: {error}") from None
-    if not isinstance(made, System):
+    except Exception as error:  # whatever somebody's code raises
+        raise ValueError(f"system.class = {named!r}: {_words(error)}") from None
+    if not (isinstance(made, System) and _takes_forcing(made) and _has_parameters(made)):
         raise ValueError(
-            f"system.class = {named!r}: must have parameters and equation(Omega, gamma, eta)"
+            f"system.class = {named!r}: must have parameters, a tuple of Parameter, and "
+            "equation(Omega, gamma, eta)"
         )
     for name in {p.name for p in made.parameters} & set(values):
         if values[name] != inf:
@@ -72,14 +77,41 @@ def _beside(path: Path) -> Any:
         raise ValueError(
             f"system.class: there is another module {name} ({found}); call {path.name} otherwise"
         )
+    OWN_FILES.add(str(path))
     return _imported(name)
 
 
 def _imported(name: str) -> Any:
     try:
         return import_module(name)
-    except Exception as error:  # whatever somebody's code raises
-        words = " ".join(str(error).split())
-        raise ValueError(
-            f"system.class: {name} cannot be imported ({type(error).__name__}: {words})"
-        ) from None
+    except (Exception, SystemExit) as error:  # whatever somebody's code raises
+        raise ValueError(f"system.class: {name} cannot be imported ({_words(error)})") from None
+
+
+def _words(error: BaseException) -> str:
+    return f"{type(error).__name__}: {' '.join(str(error).split())}"
+
+
+def _takes_forcing(made: Any) -> bool:
+    try:
+        signature(made.equation).bind(1.0, 0.0, 0.0)
+    except TypeError:
+        return False
+    return True
+
+
+def _has_parameters(made: Any) -> bool:
+    own = made.parameters
+    return isinstance(own, Sequence) and all(isinstance(p, Parameter) for p in own)
+
+
+def place_of(error: BaseException) -> str:
+    """Where in somebody's own file an exception was met, and what it says; empty if in none."""
+    met = [frame for frame in extract_tb(error.__traceback__) if frame.filename in OWN_FILES]
+    if not met:
+        return ""
+    return f"{Path(met[-1].filename).name}, line {met[-1].lineno}: {_words(error)}"
+
+
+OWN_FILES: set[str] = set()
+"""Of the classes that were asked for."""

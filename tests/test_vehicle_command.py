@@ -241,3 +241,23 @@ def test_bad_input_is_one_line(
     assert caught.out == ""
     assert message in caught.err
     assert len(caught.err.strip().splitlines()) == 1
+
+
+@pytest.mark.parametrize(
+    "rest",
+    ["", "[thrust]\nmean = 1.0\n", "[thrust]\nmean = 1.0\n[damping]\nratios = [0.1, 1.5]\n"],
+    ids=["no thrust", "no sensor", "damped"],
+)
+def test_a_rigid_rotation_is_no_oscillation(
+    rest: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Rounding makes its exponents 1e-7 or so, of any phase: no frequency, and no resonance."""
+    given = tmp_path / "bar.toml"
+    given.write_text(
+        'kind = "vehicle"\nmodes = 2\n[[section]]\nlength = 1.0\nmass_per_length = 1.0\nEI = 1.0\n'
+        f"[forcing]\ngamma = 0.1\nOmega = 3.0\n{rest}"
+    )
+    assert main(["vehicle", str(given), "--closely", "3", "--both", "3"]) == 0
+    told = capsys.readouterr().out
+    assert "both routes agree" in told
+    assert "omega_(2)" not in told

@@ -193,6 +193,11 @@ def study(
     scale = Omega or 1.0
     alone = steady(vehicle.equation(scale, 0.0, eta))
     frequencies = alone.frequencies
+    if not len(frequencies):
+        raise ValueError(
+            f"thrust = {vehicle.thrust.mean:g}: nothing oscillates under it, so that no "
+            "resonance is to be found"
+        )
     low, high = span or (0.0, 2.0 * float(frequencies[min(4, len(frequencies) - 1)]))
 
     def near(resonance: Resonance, at: float) -> Near:

@@ -127,7 +127,7 @@ def least_truncation(system: Blocks) -> int:
     M = int(2.0 * system.highest + 16.0 * np.sqrt(strength)) + 2 * system.reach + 30
     if M > MAX_HARMONICS:
         raise ValueError(
-            f"too small for the determinant, which needs {M} harmonics of it "
+            f"too small for the determinant, which needs {M:.7g} harmonics of it "
             f"(at most {MAX_HARMONICS}): the highest frequency is {system.highest:.3g} Omega"
         )
     return M

@@ -14,7 +14,7 @@ from functools import cached_property
 
 import numpy as np
 
-from hill.arrays import Complex
+from hill.arrays import EPS, Complex
 from hill.averaging import Resonance
 from hill.equation import HillEquation
 from hill.oscillations.steady import Steady
@@ -74,8 +74,13 @@ class Coupled:
         if resonance.sign > 0:
             j = int(np.argmin(np.abs(mu - np.conj(mu[j]))))
         exponent = complex(mu[i])
-        square = self._passed(j, i, range(-k, 1), exponent)
-        square *= self._passed(i, j, range(0, -k - 1, -1), exponent)
+        with np.errstate(over="ignore", invalid="ignore"):
+            square = self._passed(j, i, range(-k, 1), exponent)
+            square *= self._passed(i, j, range(0, -k - 1, -1), exponent)
+        if not np.isfinite(square):
+            raise OverflowError(
+                f"{resonance.name}: stiffness or pulsation is beyond what a float can hold"
+            )
         a, b = (float(-x.real) if -x.real > UNDAMPED * abs(x) else 0.0 for x in (mu[i], mu[j]))
         c2 = float(square.real)
         growth = np.sqrt(max(0.25 * (a - b) ** 2 + c2, 0.0)) - 0.5 * (a + b)
@@ -99,7 +104,9 @@ class Coupled:
         one = self.terms.get(step, none)
         x = one[:, start]
         for m in harmonics[1:-1]:
-            x = one @ (x / (exponent + 1j * m * self.equation.Omega - mu))
+            far = exponent + 1j * m * self.equation.Omega - mu
+            # one on the way resonates too: large, and what is solved then is not this guess
+            x = one @ (x / np.where(far == 0.0, EPS * self.equation.Omega, far))
         direct = self.terms.get(harmonics[-1] - harmonics[0], none) if len(harmonics) > 2 else none
         return complex(x[end] + direct[end, start])
 

@@ -163,6 +163,8 @@ def _nearest(corner: Corner, resonance: Resonance, alone: Steady) -> Pair:
 
 def _two(resonance: Resonance, alone: Steady) -> tuple[list[complex], list[Complex], list[Complex]]:
     """Exponents and vectors of the two without pulsation: of the sum, j's conjugate is near i."""
+    if max(resonance.i, resonance.j) >= len(alone.oscillations):
+        raise Refused(f"{resonance.name}: one of the two is damped beyond oscillating")
     both = [alone.oscillations[k] for k in (resonance.i, resonance.j)]
     exponents = [complex(alone.exponents[k]) for k in both]
     right, left = [alone.right[:, k] for k in both], [alone.left[:, k] for k in both]

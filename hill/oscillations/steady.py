@@ -12,6 +12,10 @@ from hill.periodic import PeriodicEquation
 # An exponent whose imaginary part is a smaller share of it is of no oscillation.
 OSCILLATES = 1e-9
 
+# A rigid rotation's two exponents are 0, and rounding makes about the square root of an ulp of the
+# largest one of them, of any phase: that is no oscillation.
+RIGID = 1e-7
+
 
 @dataclass(frozen=True, eq=False)
 class Steady:
@@ -63,7 +67,10 @@ def mean_frequencies(equation: HillEquation | PeriodicEquation) -> Complex:
 def steady(equation: HillEquation | PeriodicEquation) -> Steady:
     """What an equation does without its pulsation."""
     exponents, left, right = eig(mean_matrix(equation), left=True, right=True)
-    own = np.flatnonzero(exponents.imag > OSCILLATES * np.abs(exponents))
+    size = np.abs(exponents)
+    own = np.flatnonzero(
+        (exponents.imag > OSCILLATES * size) & (size > RIGID * np.max(size, initial=0.0))
+    )
     order = own[np.argsort(exponents.imag[own], kind="stable")]
     return Steady(exponents, right, left.conj(), tuple(int(k) for k in order))
 

@@ -1,7 +1,4 @@
-"""Commands that are wrong, each with what its one line must name: `COMMANDS`, id to (words, named).
-
-Files that they need are made by `files`, in the folder they are run in.
-"""
+"""Wrong commands about the report: its rows, beams, charts, sensitivities, decks, simple files."""
 
 from itertools import product
 from pathlib import Path
@@ -134,8 +131,8 @@ def _all() -> dict[str, tuple[list[str], str]]:
     for name, (low, high) in product(axes, (("nan", "1"), ("0", "inf"), ("2", "1"), ("1", "1"))):
         other = "gamma" if name != "gamma" else "Omega"
         fixed = ["--set", "Omega=1.1"] if "Omega" not in (name, other) else []
-        words = ["chart", "--x", name, low, high, "5", "--y", other, "0.1", "0.2", "4", *fixed]
-        add(f"axis {name} {low} {high}", words, name)
+        axis = ["chart", "--x", name, low, high, "5", "--y", other, "0.1", "0.2", "4", *fixed]
+        add(f"axis {name} {low} {high}", axis, name)
     for name, value in product(axes, ("x", "")):
         add(f"axis {name} {value!r}", ["chart", "--x", name, value, "1", "5", *CHART[6:]], name)
     for count in ("0", "1", "-5", "x", "1.5", "1e9", "nan", "inf", "1e300", "99999999999999"):
@@ -144,8 +141,8 @@ def _all() -> dict[str, tuple[list[str], str]]:
     for low, high in (("1e-300", "2"), ("0", "2"), ("-1", "2"), ("0.5", "1e300"), ("1e-9", "1")):
         add(f"Omega {low} {high}", ["chart", "--x", "Omega", low, high, "5", *CHART[6:]], "Omega")
     for name, high in (("gamma", "1e10"), ("gamma", "1e300"), ("T0", "1e18"), ("T0", "1e300")):
-        words = ["chart", "--x", "Omega", "0.9", "1.3", "5", "--y", name, "0", high, "4"]
-        add(f"axis to {name} {high}", [*words, *(["--set", "gamma=0.1"] if name == "T0" else [])])
+        axis = ["chart", "--x", "Omega", "0.9", "1.3", "5", "--y", name, "0", high, "4"]
+        add(f"axis to {name} {high}", [*axis, *(["--set", "gamma=0.1"] if name == "T0" else [])])
     for name, value in product(parameters, (*NOT_FINITE, *HUGE)):
         if name not in ("Omega", "gamma") and not (name == "omega_L" and value != "nan"):
             named = name if value in NOT_FINITE else ""
