@@ -79,7 +79,8 @@ def _mat(path: Path, array: str) -> Any:
         raise ValueError(
             f"{path.name}: is a .mat file of version 7.3; save it as version 7 (save -v7)"
         ) from None
-    except MatReadError as error:
+    except (MatReadError, IndexError) as error:
+        # what is shorter than a header some versions of scipy index beyond
         raise ValueError(f"{path.name}: is not a .mat file ({error})") from None
 
 
