@@ -41,8 +41,8 @@ def write_whole(path: Path, content: str | bytes) -> None:
         raise
 
 
-def check_writable(path: Path) -> None:
-    """Refuse before the work what would be refused after it.
+def check_writable(path: Path, name: str = "output") -> None:
+    """Refuse before the work what would be refused after it; `name` is what the path is for.
 
     Raises
     ------
@@ -50,23 +50,23 @@ def check_writable(path: Path) -> None:
         `path` is a directory or read-only, its directory does not exist or cannot be written to.
     """
     if "\0" in str(path):
-        raise ValueError(f"output = {str(path)!r}: cannot be written (no such name)")
+        raise ValueError(f"{name} = {str(path)!r}: cannot be written (no such name)")
     try:
         target = path.resolve()
         if target.is_dir():
-            raise ValueError(f"output = {str(path)!r}: cannot be written (is a directory)")
+            raise ValueError(f"{name} = {str(path)!r}: cannot be written (is a directory)")
         if target.exists():
             # root may write anything: the mode is what the owner wants
             read_only = target.is_file() and not target.stat().st_mode & 0o222
             if read_only or not os.access(target, os.W_OK):
-                raise ValueError(f"output = {str(path)!r}: cannot be written (read-only)")
+                raise ValueError(f"{name} = {str(path)!r}: cannot be written (read-only)")
             if not target.is_file():
                 return
         if not os.access(target.parent, os.W_OK | os.X_OK):
             why = "permission denied" if target.parent.is_dir() else "no such directory"
-            raise ValueError(f"output = {str(path)!r}: cannot be written ({why})")
+            raise ValueError(f"{name} = {str(path)!r}: cannot be written ({why})")
     except (OSError, RuntimeError) as error:
-        raise _refusal(path, error) from None
+        raise _refusal(path, error, name) from None
 
 
 def check_apart(**paths: Path | None) -> None:
@@ -86,6 +86,6 @@ def check_apart(**paths: Path | None) -> None:
             seen[target] = name
 
 
-def _refusal(path: Path, error: Exception) -> ValueError:
+def _refusal(path: Path, error: Exception, name: str = "output") -> ValueError:
     reason = (getattr(error, "strerror", None) or str(error)).lower()
-    return ValueError(f"output = {str(path)!r}: cannot be written ({reason})")
+    return ValueError(f"{name} = {str(path)!r}: cannot be written ({reason})")

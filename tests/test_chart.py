@@ -296,3 +296,12 @@ def test_undecided_points_of_the_report_s_chart_are_few() -> None:
     """The series leaves 128 of a million undecided; asked again, the route itself leaves 4."""
     report = chart(BEAM, [("Omega", 0.35, 6.0, 1000), ("gamma", 0.0, 0.5, 1000)], route="floquet")
     assert report.undecided().sum() <= 10
+
+
+def test_no_more_nodes_than_points_are_spent_where_all_is_steep() -> None:
+    """P grows by powers of ten along gamma: no series is found, and not looked for in vain."""
+    c = chart(BEAM, [("Omega", 0.9, 1.3, 8), ("gamma", 0.0, 50.0, 8)], route="hill")
+    assert set(c.one_by_one) == {surface.STEEP}
+    # a rectangle's nodes are begun before the points are passed
+    assert c.surface.nodes <= 64 + 81
+    assert c.nodes == c.surface.nodes + 64

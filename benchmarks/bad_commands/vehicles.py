@@ -102,6 +102,9 @@ OPTIONS = (
     ["--set", "gama=1"], ["--set", "gamma=nan"], ["--set", "gamma=x"], ["--set", "gamma"],
     ["--set", "Omega=-1"], ["--set", "Omega=0"], ["--set", "eta=nan"], ["--set", "modes=0"],
     ["--set", "modes=1.5"], ["--set", "modes=1e9"], ["--set", "modes=3000"],
+    ["--chart", "x.pdf"], ["--chart", "x"], ["--chart", "folder"], ["--chart", "gone/x.png"],
+    ["--chart", "locked.csv"], ["--chart", "x.png", "--set", "gamma=0"], ["--more-modes", "-1"],
+    ["--more-modes", "x"], ["--more-modes", "1.5"], ["--more-modes", "1000000000"],
     ["--set", "gamma=1e300"], ["--set", "Omega=1e-300"], ["--modes", "3"],
 )  # fmt: skip
 
@@ -145,8 +148,8 @@ def commands() -> Commands:
     found["vehicle csv binary"] = (["vehicle", "csv-binary.toml"], "binary.csv")
     found["vehicle without gamma"] = (["vehicle", "vehicle-no-gamma.toml"], "gamma")
     for words in OPTIONS:
-        named = words[1].partition("=")[0] if words[0] == "--set" else words[0].strip("-")
-        named = "" if words[0] == "--chart" else "pulsation" if words[1:] == HUGE else named
+        named = words[-1].partition("=")[0] if "--set" in words else words[0].strip("-")
+        named = "pulsation" if words[1:] == HUGE else named if words[1:] else ""
         found[f"vehicle {' '.join(words)}"] = (["vehicle", "vehicle-good.toml", *words], named)
     for name in ("good.toml", "empty.toml", "broken.toml", "gone.toml", "folder", "good.npz"):
         found[f"vehicle of {name}"] = (["vehicle", name], name)

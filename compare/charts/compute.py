@@ -108,6 +108,7 @@ def chart(
             partial(_points_wanted, wanted.axes),
             partial(singular_across, wanted),
             partial(_covered, stage) if stage else None,
+            points,
         )
         alone = one_by_one(fitted, wanted.axes, sampler.at, MAX_DIRECT)
     sampled, apart = sampler.sampled

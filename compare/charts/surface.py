@@ -94,6 +94,7 @@ def fit(
     wanted: Callable[[Float, Float], float],
     singular: Callable[[Float, Float], int | None] = lambda low, high: None,
     covered: Callable[[float], Any] | None = None,
+    points: float = np.inf,
 ) -> Surface:
     """Cover a rectangle with series whose error is below `tolerance` times the largest |P|.
 
@@ -113,17 +114,22 @@ def fit(
         gets no series, be the residue as small as it may.
     covered : callable, optional
         Called with the share of the rectangle that is done with, after each piece.
+    points : int, optional
+        Of the chart. Where P was too steep wherever a series was tried, as under growth by powers
+        of ten, no more nodes than that are spent on finding another one.
     """
     known = _Known(sample, np.asarray(low, float), np.asarray(high, float))
     pieces: list[Piece] = []
     pending = [(np.asarray(low, float), np.asarray(high, float), (0,) * len(low), "")]
-    share, whole = 0.0, float(np.prod(known.high - known.low))
+    share, whole, steep = 0.0, float(np.prod(known.high - known.low)), True
     while pending:
         a, b, cuts, before = pending.pop()
         most = wanted(a, b)
         across = singular(a, b)
         found: Piece | _Cut
-        if across is None:
+        if steep and len(known.values) > points:
+            found = Piece(a, b, None, np.inf, why=STEEP)
+        elif across is None:
             found = _piece(known, a, b, tolerance, most)
         elif most < FIRST_POINTS ** len(a):
             found = Piece(a, b, None, np.inf, why=POLE)
@@ -131,6 +137,8 @@ def fit(
             found = _Cut(across, POLE)
         if isinstance(found, _Cut) and cuts[found.axis] >= MAX_CUTS:
             found = Piece(a, b, None, np.inf, why=found.why)
+        why = before if isinstance(found, Piece) and found.why == SLOW else found.why
+        steep = steep and why == STEEP
         if isinstance(found, Piece):
             # what the larger rectangle was cut for says more than that the rest is small
             pieces.append(replace(found, why=before) if found.why == SLOW and before else found)

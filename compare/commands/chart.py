@@ -172,7 +172,7 @@ def _check_files(options: argparse.Namespace) -> None:
         if path is not None:
             if allowed and path.suffix not in allowed:
                 raise ValueError(f"{name} = {str(path)!r}: must end in {', '.join(allowed)}")
-            check_writable(path)
+            check_writable(path, name)
     check_apart(output=options.output, tongues=options.tongues, resume=options.resume)
 
 

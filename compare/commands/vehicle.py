@@ -145,9 +145,9 @@ def _check_files(
     options: argparse.Namespace, vehicle: Vehicle, forcing: Mapping[str, float]
 ) -> None:
     """Refuse what could not be written or drawn, before anything is computed."""
-    for path in (options.output, options.chart):
+    for name, path in (("output", options.output), ("chart", options.chart)):
         if path is not None:
-            check_writable(path)
+            check_writable(path, name)
     check_apart(output=options.output, chart=options.chart)
     if options.chart is not None:
         if find_spec("matplotlib") is None:
