@@ -29,8 +29,15 @@ COUNT = 64
 # where a symmetry decides the verdict.
 SAMPLE, SAMPLE_OF_PAIRS = 8, 2
 
+# Bits of the arbiter's polynomial, of the largest coefficient. Where multipliers are more powers of
+# ten apart than that it does not tell T: more bits take minutes, and only P is judged.
+BITS_OF_P = 140
+
 # What is asked of the difference, over the largest coefficient.
 ASKED = 1e-11
+
+# Of the arbiter's T: far below every bound.
+WIDE_T = 1e-25
 
 EPS = float(np.finfo(float).eps)
 WIDE = 100
@@ -41,7 +48,8 @@ largest coefficient; above: systems with more than {ASKED:.0e}. agree: every
 coefficient within the sum of its two bounds, which are at most `bound` of the
 largest. moves: by how much of itself P moves, of the systems above, if every
 number of the equation is off by an ulp of its matrix's largest. judged: held
-against ball arithmetic; wrong: bounds of P or T too small, and wrong verdicts."""
+against ball arithmetic, and T and the verdict too where that tells them; wrong:
+bounds of P or T too small, and wrong verdicts."""
 
 
 @dataclass(frozen=True)
@@ -55,8 +63,8 @@ class Outcome:
     moves : float
         What an ulp of the data moves P by, over the largest coefficient, to first order; asked only
         where `apart` is above `ASKED`.
-    judged : bool
-        Whether the arbiter was asked, and had an answer.
+    judged, told : bool
+        Whether the arbiter was asked, and had an answer; and one narrow enough for T and verdict.
     wrong : tuple of str
         What is wrong, the routes' own agreement apart.
     """
@@ -70,6 +78,7 @@ class Outcome:
     bound: float
     moves: float
     judged: bool
+    told: bool
     wrong: tuple[str, ...]
     refused: str = ""
 
@@ -81,7 +90,7 @@ def outcome(kind: str, seed: int, *, judge: bool) -> Outcome:
         x = crosscheck(e)
     except (OverflowError, ValueError) as refused:
         return Outcome(
-            kind, seed, e.order, True, "", 0.0, 0.0, 0.0, False, (), refused=str(refused)
+            kind, seed, e.order, True, "", 0.0, 0.0, 0.0, False, False, (), refused=str(refused)
         )
     size = float(np.max(np.abs(x.floquet.polynomial)))
     known = reference(e) if judge else None
@@ -95,6 +104,7 @@ def outcome(kind: str, seed: int, *, judge: bool) -> Outcome:
         bound=float(np.max(x.hill.errors + x.floquet.errors)) / size,
         moves=moved_by_an_ulp(e) / size if x.difference > ASKED * size else 0.0,
         judged=known is not None,
+        told=known is not None and tells(symmetric.truth_of(e, known), e.Omega),
         wrong=() if known is None else wrong(x, e, known, paired=kind in symmetric.KINDS),
     )
 
@@ -102,9 +112,15 @@ def outcome(kind: str, seed: int, *, judge: bool) -> Outcome:
 def reference(e: PeriodicEquation) -> list[Any] | None:
     """The arbiter's polynomial; None where it takes too much."""
     try:
-        return general_arbiter.reference(e, narrow=140)
+        return general_arbiter.reference(e, narrow=BITS_OF_P)
     except TooWide:
         return None
+
+
+def tells(truth: symmetric.Truth, Omega: float) -> bool:
+    """Whether the arbiter's polynomial is narrow enough for T and a verdict."""
+    T = truth.T
+    return bool(truth.verdict != "unknown" and T.is_finite() and float(T.rad()) < WIDE_T * Omega)
 
 
 def moved_by_an_ulp(e: PeriodicEquation) -> float:
@@ -120,6 +136,7 @@ def moved_by_an_ulp(e: PeriodicEquation) -> float:
 def wrong(x: CrossCheck, e: PeriodicEquation, known: list[Any], *, paired: bool) -> tuple[str, ...]:
     """What the arbiter finds fault with."""
     truth = symmetric.truth_of(e, known)
+    told = tells(truth, e.Omega)
     true = truth.verdict if paired or truth.verdict != "stable" else _by_sign(truth.T)
     found = []
     for name, route in (("hill", x.hill), ("floquet", x.floquet)):
@@ -127,9 +144,9 @@ def wrong(x: CrossCheck, e: PeriodicEquation, known: list[Any], *, paired: bool)
             pairs = zip(route.polynomial, route.errors, known, strict=True)
             if any(abs(arb(float(p)) - t) > arb(float(r)) for p, r, t in pairs):
                 found.append(f"{name}: a bound of P")
-            if abs(arb(route.T) - truth.T) > arb(route.T_error):
+            if told and abs(arb(route.T) - truth.T) > arb(route.T_error) + WIDE_T:
                 found.append(f"{name}: the bound of T")
-        if route.verdict not in (true, "undecided"):
+        if told and route.verdict not in (true, "undecided"):
             found.append(f"{name}: {route.verdict}, is {true}")
     return tuple(found)
 
@@ -207,5 +224,6 @@ COLUMNS: tuple[tuple[str, Callable[[Sequence[Outcome]], str]], ...] = (
     ("above", lambda s: str(len(_above(s)))),
     ("moves", lambda s: _most([x.moves for x in _above(s)])),
     ("judged", lambda s: str(sum(x.judged for x in s))),
+    ("T too", lambda s: str(sum(x.told for x in s))),
     ("wrong", lambda s: str(sum(bool(x.wrong) for x in s))),
 )
