@@ -216,3 +216,10 @@ def test_pairs_that_leave_the_ellipse(eta: float) -> None:
         signs[growth.truth] = float(edges.edge_function("pair", own))
     assert set(signs) == {"stable", "unstable"}
     assert signs["stable"] * signs["unstable"] < 0.0
+
+
+def test_an_edge_that_another_instability_has_taken_has_no_bound() -> None:
+    """Two edges of this chart were where a complex pair's real part passes -1, said to 4e-9."""
+    found = edges.trial("matrices, gamma", 71, 15)
+    assert len(found) > 5
+    assert not any(one.violations for one in found)

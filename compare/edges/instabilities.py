@@ -39,7 +39,7 @@ class Instability:
         Its two edges in Omega along y.
     edge_error : (k,) ndarray
         Bound on the error of the edges at each y of the tongue, from P's; infinite where they meet
-        too closely to tell.
+        too closely to tell, or where another instability has taken the place of an edge.
     tips : tuple of (float, float)
         (Omega, y) where the edges meet within the chart.
     y : float
@@ -146,7 +146,9 @@ def _edge_error(curves: InterpolatedField, tongue: Tongue) -> Float:
     """How far P's error can move the edges at each y, the larger of the two.
 
     The edge's function is smooth in P's coefficients p and in Omega: to first order its zero moves
-    by sum |df/dp_j| error / |df/dOmega|. Doubled, for what the first order leaves out.
+    by sum |df/dp_j| error / |df/dOmega|. Doubled, for what the first order leaves out. Infinite
+    where the function does not change sign within it: where two instabilities have run into one
+    another what is left of an edge need not be one of this kind.
     """
     kind, edge_function = tongue.resonance.indicator, curves.reading.edge_function
     # what the edges were solved to, and an ulp or two of them
@@ -163,7 +165,13 @@ def _edge_error(curves: InterpolatedField, tongue: Tongue) -> Float:
             moved = _moved(partial(edge_function, kind), P[1], Omega, eta, float(errors.max()))
             # where the edges are closer than this moves them, they cannot be told apart
             bound = 2.0 * moved / slope if slope > 0.0 else np.inf
-            worst[k] += bound if bound < 0.25 * (tongue.upper[k] - tongue.lower[k]) else np.inf
+            if bound < 0.25 * (tongue.upper[k] - tongue.lower[k]):
+                sides = Omega + (found_to + bound) * np.array([-1.0, 1.0])
+                at_sides = edge_function(kind, curves.known(sides, y)[0], sides, eta)
+                bound = bound if np.prod(np.sign(at_sides)) < 0.0 else np.inf
+            else:
+                bound = np.inf
+            worst[k] += bound
     return worst
 
 
