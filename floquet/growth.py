@@ -9,6 +9,7 @@ import numpy as np
 from floquet.arrays import EPS, Bool, Complex, Float
 from floquet.eigenvalues import Discs
 
+# What a modulus of 0 counts as: the smallest float.
 TINY = 5e-324
 
 Verdict = Literal["stable", "unstable", "undecided"]

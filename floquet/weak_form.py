@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from scipy.optimize import brentq
 
 from floquet.arrays import frozen
-from floquet.matrix_error import amplification, matrix_error
+from floquet.matrix_rounding import amplification, matrix_error
 from hill import (
     Fourier,
     HillEquation,

@@ -29,7 +29,12 @@ SAME = 0.02
 compared by straight lines between stations."""
 
 MOSTLY = 0.7
-"""Share of its stations from which a tongue that is another there is no tongue of its own."""
+"""Share of its stations from which a tongue that is another there is no tongue of its own.
+
+On the charts of the report's two beams over gamma, and over T0, up to order 3, what is a tongue of
+its own was another at .19 of its stations at most, and what is none at .78 at least; with `SAME`
+from .02 to .2 alike.
+"""
 
 
 def stations(y: Axis) -> list[float]:

@@ -10,6 +10,8 @@ from typing import Any
 
 from compare.publication import Publication
 
+__all__ = ["FIRST", "find", "names"]
+
 FIRST = "kincaid"
 """The report this project began with."""
 

@@ -31,8 +31,7 @@ from floquet.batch.numpy_kernel import (
     by_numpy,
 )
 from floquet.charpoly import MAX_MINORS, PRODUCTS_SHARE, characteristic_polynomials
-from floquet.integrate.step_length import MAX_EXPONENT, RADII, RADII_ORDER
-from floquet.integrate.taylor import MAX_STEPS
+from floquet.integrate.step_length import MAX_EXPONENT, MAX_STEPS, RADII, RADII_ORDER
 
 COMPILERS = ("cc", "gcc", "clang")
 FLAGS = ("-O3", "-march=native", "-fno-math-errno", "-fPIC", "-shared", "-lm")

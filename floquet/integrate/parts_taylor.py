@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import ceil
 
 import numpy as np
 
@@ -10,9 +9,8 @@ from floquet.arrays import EPS, Float
 from floquet.integrate.normal_form import Harmonic, NormalForm
 from floquet.integrate.parts import Grid, Parts
 from floquet.integrate.phases import condensed
-from floquet.integrate.step_length import longest_step
+from floquet.integrate.step_length import TaylorSteps
 from floquet.integrate.steps import Steps
-from floquet.integrate.taylor import MAX_STEPS
 from floquet.products import chain
 
 # Numbers held side by side in one call.
@@ -23,36 +21,12 @@ EXPONENTIAL_TERMS = 40
 
 
 @dataclass(frozen=True)
-class PartsTaylor:
-    """Taylor steps of fixed order.
-
-    Parameters
-    ----------
-    order : int
-        Highest power of the step kept.
-    tolerance : float
-        What a step may leave out, of the solution's size; the default is below an ulp.
-    """
-
-    order: int = 24
-    tolerance: float = 1e-17
+class PartsTaylor(TaylorSteps):
+    """Taylor steps over each part of the period."""
 
     def steps(self, form: NormalForm) -> int:
-        """How many the period takes.
-
-        Raises
-        ------
-        ValueError
-            More than `MAX_STEPS`.
-        """
-        longest = longest_step(*terms(form), self.order, self.tolerance)
-        needed = form.period / longest
-        if not needed <= MAX_STEPS:
-            raise ValueError(
-                f"Omega = {form.Omega:g}: too small, one period needs {needed:.3g} Taylor steps "
-                f"(at most {MAX_STEPS:,})"
-            )
-        return max(ceil(needed), 1)
+        """How many the period takes; see `TaylorSteps.count`."""
+        return self.count(*terms(form), form.period, form.Omega)
 
     def __call__(self, form: NormalForm, grid: Grid) -> Float:
         """Fundamental matrix of each part, (parts, m, m)."""

@@ -1,6 +1,8 @@
 """How long a Taylor step may be, from Cauchy's estimate of what it leaves out."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
+from math import ceil
 
 import numpy as np
 
@@ -9,12 +11,16 @@ from floquet.arrays import Float, frozen
 Term = tuple[Float, float]
 """A matrix and the frequency of the cosine that multiplies it (0 for the constant stiffness)."""
 
+MAX_STEPS = 1_000_000
+"""In one period: 35 s for three coordinates, and an answer takes two or three such runs."""
+
 RADII = frozen(np.geomspace(0.3, 40.0, 48))
 """Circles tried, in units of one over the fastest rate; the best lies near order + 1 of them."""
 
 RADII_ORDER = 25.0
 """The order + 1 that they are for; for others they are longer or shorter by as much."""
 
+# exp of it is still a float, and so is its product with what it bounds.
 MAX_EXPONENT = 600.0
 
 
@@ -81,3 +87,37 @@ def _swollen(terms: Sequence[Term], R: Float) -> Float:
         swell = np.cosh(np.minimum(frequency * R, MAX_EXPONENT / 2))
         total += swell[:, None, None] * np.abs(matrix)
     return total
+
+
+@dataclass(frozen=True)
+class TaylorSteps:
+    """Taylor steps of fixed order.
+
+    Parameters
+    ----------
+    order : int
+        Highest power of the step kept.
+    tolerance : float
+        What a step may leave out, of the solution's size; the default is below an ulp.
+    """
+
+    order: int = 24
+    tolerance: float = 1e-17
+
+    def count(
+        self, terms: Sequence[Term], damping: Float | Sequence[Term], time: float, Omega: float
+    ) -> int:
+        """How many `time` takes.
+
+        Raises
+        ------
+        ValueError
+            More than `MAX_STEPS`.
+        """
+        needed = time / longest_step(terms, damping, self.order, self.tolerance)
+        if not needed <= MAX_STEPS:
+            raise ValueError(
+                f"Omega = {Omega:g}: too small, one period needs {needed:.3g} Taylor steps "
+                f"(at most {MAX_STEPS:,})"
+            )
+        return max(ceil(needed), 1)

@@ -11,7 +11,7 @@ import numpy as np
 from floquet.arrays import Float
 from floquet.integrate.ode import Parameters, Shape, symbols, terms
 from floquet.integrate.recurrence import cosine, second_order
-from floquet.integrate.step_length import longest_step
+from floquet.integrate.step_length import TaylorSteps
 
 # SX expands every scalar operation: quicker to run, slower to build. Measured: at this many of
 # them both take about as long for ten calls, and a build stays under 0.2 s.
@@ -20,33 +20,15 @@ SX_OPERATIONS = 60_000
 # Steps in one fold, whose inputs are held side by side: a step of three coordinates takes 43 us in
 # folds of 64, 35 us in folds of 1,024 and no less in longer ones.
 MAX_FOLD_STEPS = 1024
-# In one period: 35 s for three coordinates, and an answer takes two or three such runs.
-MAX_STEPS = 1_000_000
 
 
 @dataclass(frozen=True)
-class Taylor:
-    """Taylor steps of fixed order, the coefficients by recurrence, folded over the time.
-
-    Parameters
-    ----------
-    order : int
-        Highest power of the step kept.
-    tolerance : float
-        What a step may leave out, of the solution's size; the default is below an ulp.
-    """
-
-    order: int = 24
-    tolerance: float = 1e-17
+class Taylor(TaylorSteps):
+    """Taylor steps of fixed order, the coefficients by recurrence, folded over the time."""
 
     def __call__(self, p: Parameters, size: Shape, time: float) -> Float:
         """Fundamental matrix at `time`."""
-        needed = ceil(time / longest_step(terms(p, size), p.C, self.order, self.tolerance))
-        if needed > MAX_STEPS:
-            raise ValueError(
-                f"Omega = {p.Omega:g}: too small, one period needs {needed:,} Taylor steps "
-                f"(at most {MAX_STEPS:,})"
-            )
+        needed = self.count(terms(p, size), p.C, time, float(p.Omega))
         steps = rounded_up(min(needed, MAX_FOLD_STEPS))
         return self.march(p, size, time, steps, ceil(needed / steps))
 

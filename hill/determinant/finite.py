@@ -111,11 +111,16 @@ def determinants(system: Blocks, alpha: Complex, M: int, squares: Complex) -> Co
     return np.asarray(value * np.ldexp(1.0, power))
 
 
+# Over 39 systems, nine of them Table 3's with initial conditions, the error that is reported was
+# 5e-11 of P in the median with no more harmonics, 7e-13 with 10 more, 1e-13 with 20 and with 60;
+# for the strongest of Table 3 it is 2e-10, 2e-11, 4e-12 with the factors 0, 8 and 16.
+COUPLING_HARMONICS, EXTRA_HARMONICS = 16.0, 30
+
+
 def least_truncation(system: Blocks) -> int:
     """M from which the tails' expansions hold: w/M <= 1/2, clear of the couplings' reach.
 
-    A strong coupling moves the blocks' own frequencies by the square root of its strength; the
-    factor 16 brings the extrapolated remainder to rounding for the strongest of Table 3.
+    A strong coupling moves the blocks' own frequencies by the square root of its strength.
 
     Raises
     ------
@@ -124,7 +129,8 @@ def least_truncation(system: Blocks) -> int:
     """
     coupling = sum((np.abs(B) for B in system.B.values()), np.zeros_like(system.Fbar))
     strength = float(np.max(np.abs(np.linalg.eigvals(coupling)))) if system.B else 0.0
-    M = int(2.0 * system.highest + 16.0 * np.sqrt(strength)) + 2 * system.reach + 30
+    couplings = COUPLING_HARMONICS * np.sqrt(strength)
+    M = int(2.0 * system.highest + couplings) + 2 * system.reach + EXTRA_HARMONICS
     if M > MAX_HARMONICS:
         raise ValueError(
             f"too small for the determinant, which needs {M:.7g} harmonics of it "

@@ -11,6 +11,8 @@ from compare.publications.mathieu.outcome import explain, solve
 from compare.publications.mathieu.render import RENDERING
 from compare.publications.mathieu.table import EVEN, ODD, errata, rows
 
+__all__ = ["PUBLICATION"]
+
 PUBLICATION = Publication(
     name="mathieu",
     title="Abramowitz and Stegun, Handbook of Mathematical Functions, table 20.1: a_r(q), b_r(q)",

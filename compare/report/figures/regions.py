@@ -6,8 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from compare.edges.tongue import Tongue
-from compare.edges.tracer import TongueTracer as Cutter
-from compare.edges.tracer import follow
+from compare.edges.tracer import TongueTracer, follow
 from compare.report.figures.beams import RESONANCES, THIRD, family_of, point_count, printed
 from compare.report.figures.catalogue import FIGURES, Figure
 from compare.report.figures.data import FigureData, Float, Series, largest
@@ -99,7 +98,7 @@ def expects_width(figure: Figure, resonance: Resonance) -> bool:
         return True
     widths = []
     for y in np.linspace(*figure.span, 8)[1:]:
-        Omega = Cutter(family, resonance).Omega(float(y))
+        Omega = TongueTracer(family, resonance).Omega(float(y))
         if Omega > 0.0:
             widths.append(half_width(resonance, family.equation(Omega, float(y))) / Omega)
     return max(widths, default=0.0) > NEGLIGIBLE_WIDTH
@@ -111,7 +110,7 @@ def ended_at_zero(figure: Figure, tongue: Tongue) -> Tongue:
     if tongue.y[0] > step:
         return tongue
     family = family_of(figure, "floquet")
-    Omega = Cutter(family, tongue.resonance).Omega(0.0)
+    Omega = TongueTracer(family, tongue.resonance).Omega(0.0)
     return Tongue(
         tongue.resonance,
         np.append(0.0, tongue.y),
