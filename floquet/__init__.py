@@ -1,5 +1,6 @@
 """The witness: a periodic system in the time domain, its monodromy matrix, what follows from it."""
 
+from floquet.enclosure import enclose
 from floquet.general.of_time import EstimatedMonodromy
 from floquet.period import monodromy
 from floquet.result import Monodromy
@@ -21,6 +22,7 @@ __all__ = [
     "Sensitivities",
     "SystemSensitivities",
     "beam_sensitivities",
+    "enclose",
     "general_sensitivities",
     "monodromy",
     "sensitivities",

@@ -4,6 +4,7 @@ from hill.beams import SteppedBeam, UniformBeam
 from hill.determinant.converged import characteristic
 from hill.determinant.result import Characteristic
 from hill.determinant.root_distance import RootDistance, root_distance
+from hill.enclosure import enclose
 from hill.equation import HillEquation
 from hill.errors import LongitudinalResonance, Refused, Singular
 from hill.periodic import Fourier, PeriodicEquation
@@ -41,6 +42,7 @@ __all__ = [
     "Vehicle",
     "characteristic",
     "critical_thrust",
+    "enclose",
     "parameter_values",
     "root_distance",
     "varied",

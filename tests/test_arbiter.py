@@ -8,10 +8,11 @@ from flint import arb, arb_mat, ctx
 from scipy.linalg import eigh_tridiagonal
 from systems import SPECIAL, random_system
 
-from benchmarks.honesty import arbiter, steps, systems, trial
-from benchmarks.honesty.balls import exact, problem
-from benchmarks.honesty.series import first_block
+from benchmarks.honesty import arbiter, systems, trial
 from benchmarks.honesty.slopes import slopes
+from floquet.enclosure import steps
+from floquet.enclosure.balls import exact, problem
+from floquet.enclosure.series import first_block
 from hill import HillEquation
 
 PAIR = ([[2.0, 0.3], [0.2, 1.0]], [[1.0, 2.0], [3.0, 1.0]])

@@ -11,10 +11,11 @@ from periodic_systems import VINOGRAD, ZHOU_HAGIWARA
 from scipy.linalg import expm
 from systems import SPECIAL, random_system
 
-from benchmarks.honesty import arbiter, general_arbiter
+from benchmarks.honesty import arbiter
 from compare import crosscheck
 from compare.report.row import equation
 from compare.report.tables import Row, all_rows
+from floquet.enclosure import general as general_arbiter
 from hill import Characteristic, Fourier, HillEquation, PeriodicEquation, characteristic
 
 # ---- systems -------------------------------------------------------------------------------------

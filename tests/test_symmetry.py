@@ -6,11 +6,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from benchmarks.honesty import general_arbiter
 from benchmarks.honesty.symmetric import KINDS, broken, system, truth_of
 from compare.report.row import equation
 from compare.report.tables import all_rows
 from floquet import monodromy
+from floquet.enclosure import general as general_arbiter
 from floquet.general.symmetry import pairs_decay
 from floquet.growth import LogDiscs, growth_from_multipliers
 from hill import Fourier, HillEquation, PeriodicEquation, characteristic

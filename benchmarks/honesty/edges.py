@@ -19,12 +19,12 @@ import numpy as np
 from flint import arb, arb_mat, ctx
 
 from benchmarks.honesty import arbiter
-from benchmarks.honesty.balls import identity
-from benchmarks.honesty.enclosures import BITS
 from benchmarks.honesty.judge import INFLATED, Judged, Measured, truth
 from benchmarks.honesty.trial import caught
 from compare.charts.compute import chart
 from compare.edges.instabilities import Instability, instabilities
+from floquet.enclosure.balls import identity
+from floquet.enclosure.judgement import BITS
 from hill import HillEquation, MatrixSystem, SteppedBeam, UniformBeam
 from hill.system import varied
 

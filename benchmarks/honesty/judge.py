@@ -9,8 +9,8 @@ from flint import arb, ctx
 from numpy.typing import NDArray
 
 from benchmarks.honesty import arbiter
-from benchmarks.honesty.enclosures import BITS
 from benchmarks.honesty.symmetric import truth_of
+from floquet.enclosure.judgement import BITS
 from hill import HillEquation
 
 EPS = float(np.finfo(float).eps)

@@ -6,11 +6,11 @@ from typing import Any
 import numpy as np
 
 from benchmarks.honesty.judge import EPS, Judged, Measured, one_number
-from benchmarks.honesty.series import TooWide
 from benchmarks.honesty.slopes import Slopes, slopes
 from benchmarks.honesty.systems import CLASSES, GROUP, members
 from benchmarks.honesty.trial import caught
 from floquet import sensitivities
+from floquet.enclosure.series import TooWide
 from floquet.sensitivity.equation import Derivatives, Sensitivities
 from hill import HillEquation
 

@@ -8,9 +8,10 @@ from typing import Any
 import numpy as np
 from flint import acb, acb_poly, arb, arb_mat, ctx
 
-from benchmarks.honesty import enclosures
 from benchmarks.honesty.arbiter import NARROW, narrowed, square
-from benchmarks.honesty.balls import identity, moved
+from benchmarks.honesty.balls import moved
+from floquet.enclosure import judgement
+from floquet.enclosure.balls import identity
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,8 +61,8 @@ def slopes(equation: Any, direction: Mapping[str, Any], narrow: int = NARROW) ->
 
     numbers = narrowed(both, narrow)
     p, dp = numbers[: size + 1], numbers[size + 1 :]
-    with ctx.workprec(enclosures.BITS):
-        found = enclosures.enclosed(p)
+    with ctx.workprec(judgement.BITS):
+        found = judgement.enclosed(p)
         z = [complex(b.mid()) for b in found.balls]
         if not found.simple:
             return Slopes(z, [None] * size, None)
@@ -111,7 +112,7 @@ def _rate(root: Any, moved: Any, multiplier: bool) -> tuple[Any, Any | None]:
         root = acb(root.real)
     away = (root - 1).sqrt() * (root + 1).sqrt()
     if not abs(away) > 0:
-        return enclosures.log_R(root, real), None
+        return judgement.log_R(root, real), None
     outer = away if abs(root + away) > abs(root - away) else -away
     return abs(root + outer).log(), (moved / outer).real
 

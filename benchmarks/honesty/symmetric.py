@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 from flint import ctx
 
-from benchmarks.honesty.enclosures import BITS, enclosed, judged
-from benchmarks.honesty.enclosures import Truth as Verdict
+from floquet.enclosure.judgement import BITS, enclosed, judged
+from floquet.enclosure.judgement import Truth as Verdict
 from hill import Fourier, PeriodicEquation
 
 Rng = np.random.Generator

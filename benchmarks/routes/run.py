@@ -14,12 +14,13 @@ from flint import arb, ctx
 from rich.console import Console
 from rich.table import Table
 
-from benchmarks.honesty import general_arbiter, symmetric
+from benchmarks.honesty import symmetric
 from benchmarks.honesty.arbiter import TooWide
-from benchmarks.honesty.enclosures import BITS
 from benchmarks.routes.systems import KINDS, system
 from compare import CrossCheck, crosscheck
 from compare.output import check_writable, write_whole
+from floquet.enclosure import general
+from floquet.enclosure.judgement import BITS
 from hill import PeriodicEquation, characteristic
 
 # Systems of a class.
@@ -112,7 +113,7 @@ def outcome(kind: str, seed: int, *, judge: bool) -> Outcome:
 def reference(e: PeriodicEquation) -> list[Any] | None:
     """The arbiter's polynomial; None where it takes too much."""
     try:
-        return general_arbiter.reference(e, narrow=BITS_OF_P)
+        return general.reference(e, narrow=BITS_OF_P)
     except TooWide:
         return None
 

@@ -8,6 +8,8 @@ from typing import Any, Literal
 
 from flint import acb, acb_poly, arb, ctx, fmpz, fmpz_poly
 
+from floquet.enclosure.balls import number
+
 BITS = 1024
 """For all that follows from P."""
 
@@ -51,11 +53,14 @@ def roots(truth: Sequence[Any]) -> list[complex]:
     return [complex(z) for z in _midpoint_roots(truth)]
 
 
-def judged(truth: Sequence[Any], Omega: float, eta: float | None) -> Growth:
-    """T and the verdict from P; `eta` is None where P is the polynomial of the multipliers."""
+def judged(truth: Sequence[Any], Omega: Any, eta: Any) -> Growth:
+    """T and the verdict from P; `eta` is None where P is the polynomial of the multipliers.
+
+    Omega and eta are floats or fractions.
+    """
     with ctx.workprec(BITS):
         found = enclosed(truth)
-        scale = arb(Omega) / arb.pi()
+        scale = number(Omega) / arb.pi()
         if eta is None:
             largest = reduce(lambda a, b: a.max(b), (abs(z) for z in found.balls))
             T = scale * largest.log() if largest.lower() > 0 else arb.nan()
@@ -63,7 +68,7 @@ def judged(truth: Sequence[Any], Omega: float, eta: float | None) -> Growth:
         real = [found.simple and bool(z.imag.contains(0)) for z in found.balls]
         inside = [r and bool(abs(z.real) < 1) for z, r in zip(found.balls, real, strict=True)]
         logs = [log_R(z, r) for z, r in zip(found.balls, real, strict=True)]
-        T = scale * reduce(lambda a, b: a.max(b), logs) - arb(float(eta))
+        T = scale * reduce(lambda a, b: a.max(b), logs) - number(eta)
         if eta == 0 and all(inside):
             return Growth(T, "stable")
         return Growth(T, _sign(T))

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from flint import arb, arb_mat, ctx
 
-from benchmarks.honesty.balls import Problem, exact, identity, norm
+from floquet.enclosure.balls import Problem, exact, identity, norm
 
 # A system that takes more terms than this is none that a float can hold.
 MOST_TERMS = 20000

@@ -20,8 +20,9 @@ from typing import Any
 import numpy as np
 from flint import arb, arb_mat, ctx
 
-from benchmarks.honesty.balls import Problem, identity, norm
-from benchmarks.honesty.series import TooWide
+from floquet.arrays import frozen
+from floquet.enclosure.balls import Problem, identity, norm
+from floquet.enclosure.series import TooWide
 
 MOST_STEPS = 20000
 
@@ -33,7 +34,7 @@ LEFT_OUT = 0.75
 
 # Orders tried, a digit of the bits each, and radii R of the disc by which they are judged.
 ORDERS = (0.15, 0.2, 0.25, 0.3, 0.4, 0.5)
-RADII = np.geomspace(1e-4, 1e3, 400)
+RADII = frozen(np.geomspace(1e-4, 1e3, 400))
 
 
 @dataclass(frozen=True)

@@ -17,9 +17,9 @@ import numpy as np
 from flint import arb, arb_mat, ctx
 from scipy.linalg import matrix_balance
 
-from benchmarks.honesty.arbiter import NARROW, narrowed
-from benchmarks.honesty.balls import exact, identity, norm
-from benchmarks.honesty.series import TooWide
+from floquet.enclosure.balls import exact, identity, norm
+from floquet.enclosure.narrow import NARROW, narrowed
+from floquet.enclosure.series import TooWide
 
 REACH = 3.0
 """Length of a step times the largest norm of A on it."""
