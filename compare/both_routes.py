@@ -37,9 +37,8 @@ class CrossCheck:
         How far P may be off for the matrices, where the witness makes its own from finite elements:
         an estimate, of its elements by what the last refinement moved P by, and of both routes'
         rounding. 0 for other systems.
-    matrices : float or None
-        Largest difference between the two routes' matrices, over their largest element; None where
-        they are in different coordinates.
+    matrices : float
+        Largest difference between the two routes' matrices, over their largest element.
     shared_matrices : bool
         Whether both routes were given the same matrices, so that only the solution is checked.
     routes_agree : bool
@@ -56,7 +55,7 @@ class CrossCheck:
     floquet: Monodromy
     difference: float
     discretisation: float
-    matrices: float | None
+    matrices: float
     shared_matrices: bool
     routes_agree: bool
     verdict: Verdict
@@ -175,12 +174,12 @@ def _better(h: Characteristic, f: Monodromy) -> Characteristic | Monodromy:
     return h if h.T_error < f.T_error else f
 
 
-def _apart(one: Any, other: Any) -> float | None:
-    """Largest difference of two equations' matrices; None where coordinates may be different."""
+def _apart(one: Any, other: Any) -> float:
+    """Largest difference of two equations' matrices, of each over its largest element."""
     if isinstance(one, HillEquation):
         pairs = list(zip((one.F, one.G, *one.H), (other.F, other.G, *other.H), strict=True))
     elif one.A is not None:
-        return None
+        pairs = _pairs(one.A, other.A)
     else:
         pairs = [*_pairs(one.K, other.K), *_pairs(one.C, other.C)]
     return max(

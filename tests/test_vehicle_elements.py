@@ -230,6 +230,23 @@ def test_the_force_in_a_uniform_bar(sigma: float, g: float) -> None:
     np.testing.assert_allclose(P, expected, atol=1e-12 * np.max(np.abs(expected)))
 
 
+@pytest.mark.parametrize("refinements", [0, 2])
+def test_a_force_between_held_ends_is_constant(refinements: int) -> None:
+    """To rounding, whatever the elements' lengths: a matrix has it to EPS over the least."""
+    v = Vehicle(
+        sections=(
+            Section(0.6, 1.0, 1.0),
+            Section(3e-4, 7.0, 5.0),
+            Section(0.3, (0.2, 0.5), 1.0),
+            Section(1e-3, 20.0, 0.3),
+        ),
+        ends=("clamped", "pinned"),
+        masses=(PointMass(0.2, 0.1),),
+    )
+    force = bar(v, mesh(v, refinements), 10).force(0.0)
+    assert np.max(np.abs(force - 1.0)) <= 8.0 * np.finfo(float).eps
+
+
 def test_the_lowest_axial_frequency() -> None:
     for ends, phase in ((("free", "free"), pi), (("free", "pinned"), 0.5 * pi)):
         v = Vehicle(sections=(ELASTIC,), ends=ends)

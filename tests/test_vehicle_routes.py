@@ -1,15 +1,18 @@
 """Vehicles by both routes, which share nothing but the data: exact modes and finite elements."""
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
+from vehicles import random_vehicle as own_vehicle
 
 from benchmarks.vehicles.systems import random_forcing, random_vehicle
 from compare import crosscheck
 from compare.both_routes import compare_routes
 from floquet.vehicle import discretise, reduce
-from hill import HillEquation, PeriodicEquation, Section, Sensor, Thrust, Vehicle
+from floquet.vehicle.discretise import discretised
+from hill import Fourier, HillEquation, PeriodicEquation, Section, Sensor, Thrust, Vehicle
 
 pytest.importorskip("skfem")
 
@@ -93,3 +96,41 @@ def test_elements_are_kept() -> None:
     for gamma in (0.2, 0.3):
         crosscheck(replace(VEHICLE, thrust=Thrust(2.0)), Omega=22.0, gamma=gamma)
     assert reduce._elements.cache_info().misses == before
+
+
+@pytest.mark.parametrize("seed", [15, 29, 139, 140, 152, 167])
+def test_matrices_differ_by_their_errors_alone(seed: int) -> None:
+    """Servos and short sections between held ends too, where rounding was much larger."""
+    v = own_vehicle(seed, control=True)
+    Omega = 1.1 * float(abs(v.natural_frequencies()[-1]))
+    one, other = v.equation(Omega, 0.3), discretised(v, Omega, 0.3)
+    allowed = one.data_error + other.data_error
+    for a, b in _kinds(one, other):
+        size = max(np.max(np.abs(x)) for x in a)
+        assert max(np.max(np.abs(x - y)) for x, y in zip(a, b, strict=True)) <= allowed * size
+
+
+def _kinds(one: Any, other: Any) -> list[tuple[list[Any], list[Any]]]:
+    """Stiffness, steady and pulsating, and damping of both; or A."""
+    one, other = (e.general() if isinstance(e, HillEquation) else e for e in (one, other))
+    names = ("A",) if one.A is not None else ("K", "C")
+    found = [tuple(_every(getattr(e, name)) for e in (one, other)) for name in names]
+    return [(a, b) for a, b in found if any(np.any(x) for x in a)]
+
+
+def _every(matrix: Fourier) -> list[Any]:
+    return [matrix.mean, *matrix.cos.values(), *matrix.sin.values()]
+
+
+def test_a_servo_s_angle_is_the_same_for_both() -> None:
+    """In other units too: what `CrossCheck.matrices` compares is one thing."""
+    for unit in (1.0, 2.7e4):
+        v = Vehicle(
+            sections=(Section(3.0, 2.0 * unit, 5.0 * unit),),
+            thrust=Thrust(4.0 * unit),
+            sensors=(Sensor(1.0, 0.5, 0.03),),
+            servo_time=0.05,
+            modes=2,
+            units="none",  # type: ignore[arg-type]
+        )
+        assert 0.0 < crosscheck(v, Omega=2.0, gamma=0.2).matrices < 1e-12

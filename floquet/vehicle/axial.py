@@ -27,6 +27,9 @@ from hill import LongitudinalResonance, Vehicle
 # Inverse iterations for the lowest frequency, whose square they know like (omega_1/omega_2)^4k.
 MAX_ITERATIONS = 500
 
+# Solutions of what is left, the first of the whole.
+SOLVED = 3
+
 # Rounding of Omega decides a force that is this many times the thrust.
 LARGEST_FORCE = 1e12
 
@@ -39,8 +42,16 @@ class Bar:
     ----------
     inertia, flexibility : (d, d) sparse
         The two sides of the weak form in the independent forces.
-    load, load_square : (d,) ndarray
-        What a thrust of 1 puts on the right, and per omega^2 besides.
+    gradient : (k * POINTS, c) sparse
+        P' at the Gauss points from coefficients, exactly 0 where P is constant.
+    mobility : (k * POINTS,) ndarray
+        Weights of Gauss's rule over the mass per length.
+    jump : (k + 1, c) sparse
+        P's jumps at the nodes.
+    node_mobility, thrust : (k + 1,) ndarray
+        1 over the point masses, and what of a thrust of 1 acts there.
+    compliance : (c, c) sparse
+        Integrals of P Q/EA.
     spread : (c, d) sparse
         Coefficients of P in the elements from the independent forces.
     offset : (c,) ndarray
@@ -50,8 +61,12 @@ class Bar:
 
     inertia: Any
     flexibility: Any
-    load: Float
-    load_square: Float
+    gradient: Any
+    mobility: Float
+    jump: Any
+    node_mobility: Float
+    thrust: Float
+    compliance: Any
     spread: Any
     offset: Float
     basis: Any
@@ -66,16 +81,30 @@ class Bar:
         """
         matrix = sparse.csc_array(self.inertia - square * self.flexibility, dtype=complex)
         try:
-            found = splu(matrix).solve(self.load + square * self.load_square)
+            solve = splu(matrix).solve
+            found = np.zeros(matrix.shape[0], complex)
+            # the matrix's rounding moves a force between held ends by EPS over an element's length
+            for _ in range(SOLVED):
+                found = found + solve(self._residual(found, square))
         except RuntimeError:  # singular to the last bit
             found = np.array([np.inf])
         if not np.max(np.abs(found)) < LARGEST_FORCE:
             raise LongitudinalResonance(
                 "Omega is a longitudinal resonance: the undamped axial force is infinite"
             )
-        P = self.spread @ found + self.offset
+        P = self._coefficients(found)
         real, imag = (np.ravel(self.basis.interpolate(part)) for part in (P.real, P.imag))
         return np.asarray(real + 1j * imag)
+
+    def _coefficients(self, found: Complex) -> Complex:
+        return np.asarray(self.spread @ found + self.offset)
+
+    def _residual(self, found: Complex, square: complex) -> Complex:
+        """What the weak form leaves, from P' itself: a constant force leaves exactly nothing."""
+        P = self._coefficients(found)
+        slope = self.gradient.T @ (self.mobility * (self.gradient @ P))
+        jumps = self.jump.T @ (self.node_mobility * (self.jump @ P + self.thrust))
+        return np.asarray(self.spread.T @ (square * (self.compliance @ P) - slope - jumps))
 
     @cached_property
     def lowest(self) -> float:
@@ -125,11 +154,19 @@ def bar(vehicle: Vehicle, mesh: Mesh, order: int) -> Bar:
     mobility = np.array([1.0 / j.mass if j.mass else 0.0 for j in joints])
     thrust = np.array([j.thrust for j in joints])
     stiff = inertia + jump.T @ sparse.diags_array(mobility) @ jump
+    rows = np.arange(mesh.x.size).reshape(mesh.x.shape)
+    slopes = [np.broadcast_to(part[0].grad[0], mesh.x.shape) for part in basis.basis]
+    columns = [np.broadcast_to(dofs[:, None], mesh.x.shape) for dofs in basis.element_dofs]
+    places = (np.tile(rows.ravel(), len(slopes)), np.ravel(columns))
     return Bar(
         inertia=sparse.csc_array(spread.T @ stiff @ spread),
         flexibility=sparse.csc_array(spread.T @ flexibility @ spread),
-        load=-(spread.T @ (stiff @ offset + jump.T @ (mobility * thrust))),
-        load_square=spread.T @ (flexibility @ offset),
+        gradient=sparse.csr_array((np.ravel(slopes), places), shape=(mesh.x.size, basis.N)),
+        mobility=np.ravel(mesh.weight / mesh.properties["mass"]),
+        jump=jump,
+        node_mobility=mobility,
+        thrust=thrust,
+        compliance=flexibility,
         spread=spread,
         offset=offset,
         basis=basis,

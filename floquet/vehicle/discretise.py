@@ -107,17 +107,17 @@ def discretise(
             other = reduced(vehicle, coarse, Omega, eta).turned(rotation_between(fine, coarse))
             apart = _apart(own, other, vehicle.servo_time > 0.0)
             if apart < best:
-                best, kept = apart, (own, other, fine.mesh.scales.time)
+                best, kept = apart, (own, other, fine.mesh.scales)
             if SAFETY * best <= tolerance:
                 break
         if SAFETY * best <= tolerance or best > PROGRESS * before:
             break
     assert kept is not None
-    own, other, time = kept
+    own, other, unit = kept
     error = min(SAFETY * best + ROUNDING, 1.0)
     return Discretised(
-        assembled(vehicle, own, time, Omega, gamma, error),
-        assembled(vehicle, other, time, Omega, gamma, ROUNDING),
+        assembled(vehicle, own, unit, Omega, gamma, error),
+        assembled(vehicle, other, unit, Omega, gamma, ROUNDING),
     )
 
 

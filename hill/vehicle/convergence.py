@@ -17,6 +17,9 @@ VALUES = 6
 
 WINDOW = 4
 
+ALONE = 5.0
+"""On the error where there are no values before: of 126 answers it was too small by up to 4.7."""
+
 # What a thrust leaves out falls like N^-3 or faster where cross-sections stay normal to the axis,
 # and like 1/N where they shear.
 POWERS = (1, 2, 3, 4, 5)
@@ -35,8 +38,9 @@ class Convergence:
     error : float
         Estimate of the limit's error: how far it is from the last value, from the limits of one
         power less and one more and from that of the values before, and how the law misses the
-        values. On random vehicles of up to 16 modes it was too small once in some thirty times, by
-        up to 4.
+        values. Of 126 answers of random vehicles, six values each, two were off by more, by up to
+        1.8 times; two more were thrusts that rates make smaller with modes beyond those asked of,
+        which no fewer modes can tell.
     """
 
     modes: tuple[int, ...]
@@ -95,6 +99,8 @@ def extrapolated(modes: Float, values: Float) -> tuple[float, float]:
     if len(values) > WINDOW:
         before, _ = _window(modes[-WINDOW - 1 : -1], values[-WINDOW - 1 : -1])
         error += abs(limit - before)
+    else:
+        error *= ALONE
     return limit, error + abs(limit - float(values[-1])) + 8.0 * EPS * abs(limit)
 
 
