@@ -125,6 +125,16 @@ def _run(words: list[str]) -> int:
     return status
 
 
+class _Parser(argparse.ArgumentParser):
+    """One that does not keep to itself that its help could not be written."""
+
+    def print_help(self, file: Any = None) -> None:
+        """Write it, or raise `OSError`."""
+        file = file or sys.stdout
+        file.write(self.format_help())
+        file.flush()
+
+
 def _parser(command: Any, program: str, name: str) -> argparse.ArgumentParser:
     description = command.SUMMARY[0].upper() + command.SUMMARY[1:] + "."
     epilog = command.EPILOG
@@ -132,7 +142,7 @@ def _parser(command: Any, program: str, name: str) -> argparse.ArgumentParser:
         summaries = [(c, import_module(f"compare.commands.{c}").SUMMARY) for c in COMMANDS]
         lines = "\n".join(f"  verify {c:<12} {summary}" for c, summary in summaries)
         epilog = f"{epilog}\n\nother commands:\n{lines}\n  verify help COMMAND; verify --version"
-    parser = argparse.ArgumentParser(
+    parser = _Parser(
         prog=program,
         description=description,
         epilog=epilog,

@@ -117,6 +117,7 @@ needs_a_shell = pytest.mark.skipif(os.name != "posix", reason="a POSIX shell")
     [
         ("chart --x Omega 1 2", "", 2),
         ("--row T1-01", "> /dev/full", 2),
+        ("help chart", "> /dev/full", 2),
         ("--row T1-01 --format json", ">&-", 2),
         # a reader that is gone by the time there is something to read
         ("--row T1-01 --format json", "| true", 141),
