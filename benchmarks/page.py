@@ -15,7 +15,7 @@ from compare.output import check_writable, write_whole
 SCHEMA = 1
 RESULTS = Path(__file__).parent / "results.json"
 PAGE = Path(__file__).parents[1] / "docs" / "performance.md"
-SECTIONS = ("contenders", "chart", "number", "modes", "tolerance", "limit", "verify")
+SECTIONS = ("contenders", "chart", "number", "modes", "tolerance", "limit", "general", "verify")
 KEYS = ("schema", "quick", "machine", "missing", "seconds")
 
 Results = dict[str, Any]
@@ -63,7 +63,8 @@ def _lines(results: Results) -> Iterable[Results]:
     yield from contenders["lines"]
     for single in contenders["single"]:
         yield from single["lines"]
-    yield from results.get("chart", {"lines": []})["lines"]
+    for section in ("chart", "general"):
+        yield from results.get(section, {"lines": []})["lines"]
     for sweep in ("number", "modes", "tolerance"):
         for curve in results.get(sweep, {"curves": {}})["curves"].values():
             yield from curve
@@ -86,6 +87,7 @@ def page(results: Results) -> str:
         "modes": _modes,
         "tolerance": _tolerance,
         "limit": lambda found: text.limit(found, _direct_seconds(results)),
+        "general": text.general,
         "verify": _verify,
     }
     parts += [writers[name](results[name]) for name in SECTIONS if name in results]

@@ -14,6 +14,7 @@ from typing import Any
 
 from benchmarks import sections
 from benchmarks.compete import Field, reason
+from benchmarks.general import general
 from benchmarks.page import RESULTS, SCHEMA
 from benchmarks.plan import FULL, QUICK, Plan
 from compare.output import check_writable, write_whole
@@ -25,6 +26,7 @@ SECTIONS: dict[str, Callable[[Plan, Field], dict[str, Any]]] = {
     "modes": sections.modes,
     "tolerance": sections.tolerance,
     "limit": sections.limit,
+    "general": general,
     "verify": sections.verify,
 }
 PACKAGES = ("floquet-crosscheck", "numpy", "scipy", "casadi", "heyoka", "python-flint")

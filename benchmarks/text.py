@@ -3,6 +3,18 @@
 from collections.abc import Sequence
 from typing import Any
 
+from benchmarks.measure import spread
+
+GENERAL = """\
+## General equations
+
+One equation alone, us, and the error of the multipliers' polynomial over its largest coefficient,
+against ball arithmetic. With z: the same system in its special form, whose polynomial is P(z), and
+in general form. With damping that pulsates there is the general form only. Peers integrate to the
+monodromy matrix, at the loosest tolerance with which they are about as accurate as `floquet` here,
+or else at their tightest; `hill` and `floquet` also give error bounds, exponents, T and a verdict.
+heyoka compiles every equation anew, which its time leaves out."""
+
 LIMIT = """\
 ## Where the limit is
 
@@ -99,6 +111,23 @@ def limit(found: dict[str, Any], direct_seconds: float | None) -> str:
         order=batch["order"],
         flops=batch["flops"],
     )
+
+
+def general(found: dict[str, Any]) -> str:
+    """Each system and contender a line, the numbers of coordinates its columns."""
+    counts = sorted({line["n"] for line in found["lines"]})
+    header = ["", "system", *(cell for n in counts for cell in (f"n = {n}", "error"))]
+    rows: dict[tuple[str, str], list[str]] = {}
+    for line in found["lines"]:
+        row = rows.setdefault((line["name"], line["system"]), [line["name"], line["system"]])
+        row += [micro(spread(line["seconds"]).median), error(line["error"])]
+    how = [
+        f"{line['name']}, n = {line['n']}: {line['settings']}"
+        + (f", compiled in {line['build_seconds']:.2g} s" if line["build_seconds"] > 0.1 else "")
+        for line in found["lines"]
+        if not line["ours"]
+    ]
+    return "\n\n".join([GENERAL, table(header, list(rows.values())), "; ".join(how) + "."])
 
 
 def _bound(

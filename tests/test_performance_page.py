@@ -18,6 +18,7 @@ ROOT = Path(__file__).parents[1]
 sys.path.append(str(ROOT))
 
 claims = import_module("benchmarks.claims")
+general = import_module("benchmarks.general")
 limits = import_module("benchmarks.limits")
 measure = import_module("benchmarks.measure")
 page = import_module("benchmarks.page")
@@ -412,3 +413,43 @@ def test_work_of_a_batch_grows_with_the_period() -> None:
     assert slow["steps"] > 3 * quick["steps"]
     assert slow["flops"] / slow["steps"] == pytest.approx(quick["flops"] / quick["steps"])
     assert slow["bytes"] == quick["bytes"] == 64.0
+
+
+# ---- general equations ---------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("n", [1, 2])
+@pytest.mark.parametrize("peer", ["DOP853", "LSODA", "heyoka"])
+def test_peers_solve_the_same_general_equation(peer: str, n: int) -> None:
+    e = general.pulsating(n)
+    if peer == "heyoka":
+        pytest.importorskip("heyoka")
+        run = general._heyoka(e, 0.0)
+    else:
+        run = general._scipy(e, general.TOLERANCES[peer][-1], method=peer)
+    known = general._polynomial(general.monodromy, e)
+    # Measured 4e-12, LSODA's.
+    assert general._error(run(), known) < 1e-10
+
+
+def test_general_equations_have_a_section() -> None:
+    def line(name: str, n: int, ours: bool, built: float) -> dict[str, Any]:
+        return {
+            "name": name, "system": "damping pulsates", "n": n, "ours": ours, "error": 3e-14,
+            "settings": "tolerance 1e-12", "build_seconds": built, "seconds": [2e-4, 3e-4, 4e-4],
+        }  # fmt: skip
+
+    found = {
+        "lines": [
+            line(*x) for n in (1, 8) for x in (("hill", n, True, 0.0), ("heyoka", n, False, 2.0))
+        ]
+    }
+    told = text.general(found)
+    assert "| heyoka | damping pulsates | 300 | 3e-14 | 300 | 3e-14 |" in told
+    assert "heyoka, n = 8: tolerance 1e-12, compiled in 2 s" in told
+    assert "hill, n" not in told
+    with_it = copy.deepcopy(RESULTS) | {"general": found}
+    assert "## General equations" in page.page(with_it)
+    found["lines"][0]["seconds"] = []
+    with pytest.raises(ValueError, match="hill: seconds must be positive"):
+        page.check(with_it)
