@@ -17,7 +17,7 @@ from typing import Any, overload
 
 import numpy as np
 
-from floquet.accuracy import OVERFLOW, Bounded, bounded
+from floquet.accuracy import BASE_ULPS, OVERFLOW, Bounded, bounded
 from floquet.arrays import Complex, Float
 from floquet.data_errors import data_share, subtraction_error
 from floquet.eigenvalues import Discs, discs_from_matrix, discs_from_polynomial, sorted_eigenvalues
@@ -216,7 +216,7 @@ def _of_few(equation: HillEquation, how: Method) -> _Runs:
         # nor an amplitude whose phase is near a zero, of columns or of rows
         scale[:n, :n] = np.maximum(scale[:n, :n], np.abs(Phi_u[n:, :n]) / fastest)
         scale[:n, :n] = np.maximum(scale[:n, :n], np.abs(Phi_u[:n, n:]) * fastest)
-    return _Runs(Phi_u, whole, scale, scale, 8.0 + fastest * period, half)
+    return _Runs(Phi_u, whole, scale, scale, BASE_ULPS + fastest * period, half)
 
 
 def _of_many(equation: HillEquation) -> _Runs:

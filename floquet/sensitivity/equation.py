@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from floquet.accuracy import BASE_ULPS
 from floquet.arrays import EPS, Complex, Float
 from floquet.eigenvalues import discs_from_polynomial, sorted_eigenvalues
 from floquet.growth import ln_mu
@@ -123,7 +124,7 @@ def sensitivities(equation: HillEquation) -> Sensitivities:
     growth = _growth(roots, _of_multiplier if matrix else _of_z)
     lead = _lead(roots, growth)
     wanted = [lead] if matrix and lead is not None else list(range(len(roots.values)))
-    ulps = 8.0 + fastest_rate(terms(p, shape(equation)), p.C) * period
+    ulps = BASE_ULPS + fastest_rate(terms(p, shape(equation)), p.C) * period
     found = eigenvalue_gradients(run, check, roots, wanted, ulps)
     slope, error = _of_T(equation, growth, lead, found, wanted)
     if matrix:

@@ -38,6 +38,7 @@ def polynomial_in_z(d: Determinant) -> PolynomialInZ | None:
     means = np.fft.irfft(P.conj(), 2 * (n + 1))
     defect = max(abs(means[n] - 1.0), abs(means[n + 1]))
     size = np.where((half == 0) | (half == n + 1), 0.5, 1.0) / (n + 1) * np.abs(P)
+    # n ulps of the angle's multiple, and few of the exponential, the product and the transform
     lost = float(np.sum(size * (found.rounding + EPS * (8.0 + n))))
     coefficients = np.append(1.0, means[:n][::-1])
     data_error = float(np.sum(size * found.data))
