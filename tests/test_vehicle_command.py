@@ -108,6 +108,15 @@ def test_appendix_A_is_safe(capsys: pytest.CaptureFixture[str]) -> None:
     assert "(shown safe below, but for gaps of up to 3e+04" in out
 
 
+def test_the_readme_s_first_screen(capsys: pytest.CaptureFixture[str]) -> None:
+    words = (str(EXAMPLES / "three_stage.toml"), "--closely", "6", "--both", "0")
+    status, out = answered(capsys, *words, "--more-modes", "3")
+    assert status == 0
+    readme = (EXAMPLES.parent / "README.md").read_text(encoding="utf-8").splitlines()
+    for line in out.splitlines()[:2]:
+        assert f"> {line}" in readme[:40]
+
+
 def test_a_vehicle_that_its_thrust_alone_shakes_apart(capsys: pytest.CaptureFixture[str]) -> None:
     # 26.58/5.1 of Appendix A's thrust is the limit of its beam with two modes
     status, out = answered(
