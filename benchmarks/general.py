@@ -80,7 +80,7 @@ def general(plan: Plan, field: Field) -> dict[str, Any]:
 def _truth(e: PeriodicEquation, field: Field) -> Float | None:
     """The arbiter's polynomial of the multipliers, rounded."""
     try:
-        from benchmarks.honesty.general_arbiter import reference
+        from floquet.enclosure.general import reference
     except ImportError as missing:
         field.missing["reference of general equations"] = reason(missing)
         return None
