@@ -7,10 +7,10 @@ from pathlib import Path
 from typing import Any
 
 
-def one_of(word: str, known: Sequence[str]) -> str:
-    """What would be right in place of a word, the nearest first."""
+def one_of(word: str, known: Sequence[str], alike: float = 0.6) -> str:
+    """What would be right in place of a word, the nearest first, if as much is alike."""
     by_letters = {name.casefold(): name for name in known}
-    near = [by_letters[x] for x in difflib.get_close_matches(word.casefold(), by_letters, 1)]
+    near = [by_letters[x] for x in difflib.get_close_matches(word.casefold(), by_letters, 1, alike)]
     text = f"must be one of {', '.join(known)}" if known else "must not be there"
     return f"did you mean {near[0]}? It {text}" if near else text
 
@@ -19,7 +19,9 @@ def only(table: Mapping[str, Any], known: Sequence[str], where: str) -> None:
     """Refuse a key that is not known; `where` stands before its name."""
     for name in table:
         if name not in known:
-            raise ValueError(f"{where}{name}: {one_of(name, known)}")
+            # one letter of two is the nearest that there may be: EJ for EI
+            right = one_of(name, known, 0.5 if len(name) == 2 else 0.6)
+            raise ValueError(f"{where}{name}: {right}")
 
 
 def content(path: Path) -> dict[str, Any]:

@@ -221,6 +221,68 @@ def test_routes_that_disagree_are_status_1(
     assert "DISAGREE" in out
 
 
+# What is wrong in a file, instead of what would be right; and what is said, behind its name.
+WRONG = [
+    ("EI = 1.0", "EJ = 1.0", "section[1].EJ: did you mean EI? It must be one of length, mass"),
+    ("EI = 1.0", "EI = -1.0", "section[1].EI = -1: must be greater than 0"),
+    ("EI = 1.0", "EI = nan", "section[1].EI = nan: must be finite"),
+    ("mass_per_length = 1.0", "mass_per_length = 0.0", "section[1].mass_per_length = 0: must be"),
+    ("length = 1.0", "length = '1'", "section[1].length = '1': must be a real number"),
+    ("start = 1.0", "start = 0.5", "section[2].start = 0.5: overlaps the one ahead, which ends at"),
+    ("start = 1.0", "start = 1.5", "section[2].start = 1.5: leaves a gap, which ends at 1"),
+    ("station = 1.5", "station = 2.5", "sensor[1].station = 2.5: is outside the vehicle, must be"),
+    ("station = 1.5", "", "sensor[1].station: has no value"),
+    ("modes = 2", "modes = 61", "modes = 61: must be at most 60"),
+    ("modes = 2", "modus = 2", "modus: did you mean modes? It must be one of"),
+    ("units = 'SI'", "units.length = 'kg'", "units.length = 'kg': is a unit of mass, must be one"),
+    ("units = 'SI'", "units.mass = 'lb'", "units.force = 'N': is not consistent, 1 lb m/s^2 is"),
+    ("Omega = 5.0", "Omega = -5.0", "forcing.Omega = -5: must be greater than 0"),
+    ("Omega = 5.0", "omega = 5.0", "forcing.omega: did you mean Omega? It must be one of"),
+    ("[thrust]", "[thrust", "is not TOML"),
+]
+
+WHOLE = """kind = "vehicle"
+modes = 2
+units = 'SI'
+[[section]]
+length = 1.0
+mass_per_length = 1.0
+EI = 1.0
+[[section]]
+start = 1.0
+end = 2.0
+mass_per_length = 3.0
+EI = 2.0
+[[sensor]]
+station = 1.5
+[thrust]
+mean = 3.0
+[forcing]
+gamma = 0.1
+Omega = 5.0
+"""
+
+
+@pytest.mark.parametrize(("right", "wrong", "message"), WRONG, ids=[w for _, w, _ in WRONG])
+def test_a_bad_file_is_one_line_with_file_key_and_value(
+    right: str,
+    wrong: str,
+    message: str,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("compare.commands.vehicle.study", None)
+    path = tmp_path / "mine.toml"
+    path.write_text(WHOLE.replace(right, wrong, 1))
+    assert right in WHOLE
+    assert main(["vehicle", str(path)]) == 2
+    caught = capsys.readouterr()
+    assert caught.out == ""
+    assert f"mine.toml: {message}" in caught.err
+    assert len(caught.err.strip().splitlines()) == 1
+
+
 @pytest.mark.parametrize(
     ("words", "message"),
     [
@@ -231,6 +293,7 @@ def test_routes_that_disagree_are_status_1(
         ([UNIFORM, "--both", "-1"], "--both = -1: must be at least 0"),
         ([UNIFORM, "--more-modes", "2"], "--more-modes = 2: must be at least 3"),
         ([UNIFORM, "--closely", "0"], "--closely = 0: must be at least 1"),
+        ([UNIFORM, "--set", "Omega=-5"], "--set Omega = -5: must be greater than 0"),
         ([UNIFORM, "--set", "trust=3"], "did you mean thrust"),
         (["gone.toml"], "cannot be read"),
         ([str(EXAMPLES / "three_parameters.toml")], "must be 'vehicle'"),

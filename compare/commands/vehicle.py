@@ -98,12 +98,16 @@ def configure(p: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Run it; return the exit status."""
-    found = system_file.with_settings(system_file.read(options.file), settings(options.set))
+    given = settings(options.set)
+    found = system_file.with_settings(system_file.read(options.file), given)
     vehicle = found.system
     if not isinstance(vehicle, Vehicle):
         raise ValueError(f"{options.file}: kind = {found.kind!r}: must be 'vehicle'")
     if "gamma" not in found.forcing:
         raise ValueError("gamma: has no value; give it in [forcing] or as --set gamma=")
+    if "Omega" in found.forcing:
+        where = "--set Omega" if "Omega" in given else f"{options.file}: forcing.Omega"
+        checks.positive(where, found.forcing["Omega"])
     span = None
     if options.range:
         low, high = (checks.number("--range", x) for x in options.range)
