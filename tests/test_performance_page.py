@@ -18,6 +18,7 @@ ROOT = Path(__file__).parents[1]
 sys.path.append(str(ROOT))
 
 claims = import_module("benchmarks.claims")
+compete = import_module("benchmarks.compete")
 general = import_module("benchmarks.general")
 limits = import_module("benchmarks.limits")
 measure = import_module("benchmarks.measure")
@@ -430,6 +431,17 @@ def test_peers_solve_the_same_general_equation(peer: str, n: int) -> None:
     known = general._polynomial(general.monodromy, e)
     # Measured 4e-12, LSODA's.
     assert general._error(run(), known) < 1e-10
+
+
+def test_the_reference_of_a_general_equation_is_there() -> None:
+    """Where python-flint is; else it is told, and errors are not measured."""
+    field = compete.Field()
+    truth = general._truth(general.pulsating(1), field)
+    assert field.missing == {}
+    assert (
+        general._error(general._polynomial(general.characteristic, general.pulsating(1)), truth)
+        < 1e-13
+    )
 
 
 def test_general_equations_have_a_section() -> None:
