@@ -33,7 +33,7 @@ def judged(
         return m
     known = 8.0 * EPS * (own.Omega / np.pi + abs(float(eta)))
     verdict: Verdict = "stable" if eta >= 0 else "unstable"
-    return replace(m, T=-float(eta), T_error=known, verdict=verdict)
+    return replace(m, T=0.0 - float(eta), T_error=known, verdict=verdict)
 
 
 def all_on_circle(d: Determinant, angles: Float, eta: Fraction, Omega: float) -> bool:
