@@ -74,6 +74,8 @@ ANSWERS = {
     "floquet.batch.equations.Polynomials",
     "floquet.batch.equations.polynomials",
     "floquet.enclosure.enclose",
+    "floquet.enclosure.enclose_interval",
+    "floquet.enclosure.result.IntervalProof",
     "floquet.frequencies.natural_frequencies",
     "floquet.period.monodromy",
     "floquet.result.Monodromy",

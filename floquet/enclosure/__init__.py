@@ -7,7 +7,7 @@ from hill import HillEquation, PeriodicEquation, SteppedBeam, UniformBeam
 from hill.decimals import Number
 
 if TYPE_CHECKING:
-    from floquet.enclosure.result import Enclosure
+    from floquet.enclosure.result import Enclosure, IntervalProof
 
 NO_BALLS = "enclosures need python-flint: pip install 'floquet-crosscheck[proof]'"
 
@@ -63,6 +63,34 @@ def enclose(
             raise ValueError("Omega, gamma, eta: an equation has its own; leave them out")
         return prove.of_equation(what, bits)
     return prove.of_beam(_beam(what), _given(forcing), eta, initial_terms, ratio, bits)
+
+
+def enclose_interval(
+    beam: UniformBeam | SteppedBeam,
+    *,
+    Omega: tuple[Number, Number],
+    gamma: Number,
+    eta: Number = 0.0,
+    initial_terms: int = 0,
+    ratio: int | None = None,
+) -> "IntervalProof":
+    """Prove what holds for every Omega of an interval.
+
+    Returns
+    -------
+    IntervalProof
+        Parts of the interval on which the beam is shown to be stable or unstable, and the rest.
+
+    Raises
+    ------
+    ValueError
+        As `enclose`; and matrices that move with Omega, of a finite omega_L without `ratio`.
+    """
+    if find_spec("flint") is None:
+        raise ValueError(NO_BALLS)
+    from floquet.enclosure import interval
+
+    return interval.prove(_beam(beam), Omega, gamma, eta, initial_terms, ratio)
 
 
 def _beam(what: Any) -> UniformBeam | SteppedBeam:
