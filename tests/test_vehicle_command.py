@@ -11,9 +11,9 @@ import pytest
 
 from compare import crosscheck
 from compare.__main__ import main
-from compare.vehicle.sensitivity import effects
+from compare.vehicle.sensitivity import effects, same_effects
 from compare.vehicle.study import Study, study
-from compare.vehicle.words import summary
+from compare.vehicle.words import moved, summary
 from hill import Section, Sensor, Thrust, Vehicle
 
 pytest.importorskip("skfem")
@@ -83,6 +83,25 @@ def test_effects_are_slopes_of_T(pulsed: Study) -> None:
             for d in (-h, h)
         ]
         assert effect.slope == pytest.approx((sides[1] - sides[0]) / (2.0 * h), rel=0.02)
+
+
+def test_the_first_effects_are_both_routes(pulsed: Study) -> None:
+    """The time domain's slopes, on its own elements; one that is wrong is told of."""
+    asked = [row for row in pulsed.rows if any(e.witness is not None for e in row.effects)]
+    assert len(asked) == 1
+    (row,) = asked
+    assert row.resonance == pulsed.rows[0].resonance
+    assert same_effects(row.effects)
+    for effect in row.effects:
+        assert effect.witness == pytest.approx(effect.slope, rel=1e-3)
+    first = row.effects[0]
+    wrong = (replace(first, slope=1.01 * first.slope), *row.effects[1:])
+    assert not same_effects(wrong)
+    rows = tuple(replace(r, effects=wrong) if r is row else r for r in pulsed.rows)
+    assert pulsed.routes_agree
+    assert not replace(pulsed, rows=rows).routes_agree
+    assert "THE ROUTES DISAGREE" in moved(replace(row, effects=wrong))
+    assert moved(row).endswith(", by both routes")
 
 
 def test_the_nearest_danger_is_the_nearest(pulsed: Study) -> None:

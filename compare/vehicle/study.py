@@ -9,7 +9,7 @@ from compare.vehicle.candidates import Candidate, candidates
 from compare.vehicle.convergence import Settling, settling
 from compare.vehicle.critical import critical_gamma
 from compare.vehicle.near import Band, Near
-from compare.vehicle.sensitivity import Effect, effects
+from compare.vehicle.sensitivity import Effect, effects, same_effects, witnessed_effects
 from compare.vehicle.witnessed import Witnessed, witnessed
 from hill import CriticalThrust, Vehicle, critical_thrust
 from hill.averaging import Resonance, first_order
@@ -138,6 +138,7 @@ class Study:
     def routes_agree(self) -> bool:
         """Wherever both were asked."""
         asked = [row.witnessed.agrees for row in self.rows if row.witnessed]
+        asked += [same_effects(row.effects) for row in self.rows]
         return all(asked) and (self.operating is None or self.operating.routes_agree)
 
 
@@ -234,6 +235,12 @@ def study(
     rows = [replace(row, effects=own) for row, own in zip(rows, told, strict=False)] + rows[
         witness:
     ]
+    for done, row in enumerate(rows[:witness]):
+        if row.witnessed is not None and row.witnessed.agrees and not row.witnessed.another:
+            stage("effects by both routes", 0, 0)
+            own = witnessed_effects(vehicle, gamma, eta, row.band, row.witnessed, row.effects)
+            rows[done] = replace(row, effects=own)
+            break
     stage("steady thrust", 0, 0)
     loss = _loss(vehicle, eta)
     few = vehicle.modes <= FEW_MODES

@@ -4,6 +4,7 @@ import math
 from dataclasses import dataclass
 
 from compare.vehicle.convergence import Settling
+from compare.vehicle.sensitivity import same_effects
 from compare.vehicle.study import Row, Study, distance
 from hill import CriticalThrust
 
@@ -165,7 +166,9 @@ def _both(row: Row) -> str:
 def moved(row: Row) -> str:
     """What moves T there, for one per cent more of each."""
     words = [f"{e.name} {0.01 * e.relative:+.2g}" for e in row.effects]
-    return f"{row.resonance.name}: " + ", ".join(words)
+    both = any(e.witness is not None for e in row.effects)
+    agree = ", by both routes" if same_effects(row.effects) else "; THE ROUTES DISAGREE"
+    return f"{row.resonance.name}: " + ", ".join(words) + (agree if both else "")
 
 
 def settling_table(study: Study, columns: int | None = None) -> tuple[list[str], list[list[str]]]:

@@ -195,5 +195,8 @@ def _row(row: Row) -> dict[str, Any]:
             "agrees": w.agrees,
             "another_grows_more": w.another,
         },
-        "effects": [{"name": e.name, "value": e.value, "dT": e.slope} for e in row.effects],
+        "effects": [
+            {"name": e.name, "value": e.value, "dT": e.slope, "dT_witness": e.witness}
+            for e in row.effects
+        ],
     }
