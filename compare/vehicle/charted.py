@@ -13,7 +13,7 @@ from compare.charts.scenario import scenario
 from compare.edges.on_chart import tongues
 from compare.edges.tongue import Tongue
 from compare.vehicle.study import Study
-from hill import PeriodicEquation, Vehicle
+from hill import Vehicle
 
 PICTURES = (".png", ".svg")
 
@@ -30,11 +30,6 @@ BELOW, LEAST = 0.8, 0.02
 # Over the highest resonance, which may be the range's end: its tongue is drawn.
 BEYOND = 1.04
 
-GENERAL = (
-    "modal damping, a damping matrix, rates, a servo or the sine of a damped axial force make "
-    "this vehicle's a general periodic equation, of which there is no chart yet"
-)
-
 
 def check_charted(vehicle: Vehicle, gamma: float, eta: float, path: Path) -> None:
     """Refuse a chart that there will be none of, before anything is computed."""
@@ -45,8 +40,6 @@ def check_charted(vehicle: Vehicle, gamma: float, eta: float, path: Path) -> Non
     try:
         scenario(system, (Axis("Omega", scale, 2.0 * scale, 2), _ratios(gamma, 2)), forcing)
     except ValueError as why:
-        if isinstance(system.equation(scale, gamma), PeriodicEquation):
-            raise ValueError(f"--chart {path}: {GENERAL}") from None
         raise ValueError(f"--chart {path}: {why}") from None
 
 

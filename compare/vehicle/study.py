@@ -22,15 +22,15 @@ Stage = Callable[[str, int, int], None]
 # Resonances that are looked at closely, of those that averaging finds the most dangerous.
 CLOSELY = 20
 
-# Of the vehicle's own: a thrust that is smaller is not looked at.
-LEAST_THRUST = 1e-3
+# Of the vehicle's own: a thrust that is smaller is not looked at; with many modes.
+LEAST_THRUST, LEAST_THRUST_MANY = 1e-3, 1e-2
 
 # Modes beyond which less is asked of more of them: the whole study has some seconds.
 FEW_MODES = 10
 
 # Resonances, and times that two modes are added, to tell what more modes change; with many modes.
 SETTLING, MORE = 6, 5
-SETTLING_MANY, MORE_MANY = 3, 3
+SETTLING_MANY, MORE_MANY = 1, 3
 
 # And of these, by the witness too, and for what helps.
 WITNESSED = 6
@@ -283,5 +283,6 @@ def _loss(vehicle: Vehicle, eta: float) -> CriticalThrust | None:
     if not vehicle.thrust.mean:
         return None
     damping = replace(vehicle.damping, eta=vehicle.damping.eta + eta)
-    thrust = abs(vehicle.thrust.mean)
-    return critical_thrust(replace(vehicle, damping=damping), least=LEAST_THRUST * thrust)
+    share = LEAST_THRUST if vehicle.modes <= FEW_MODES else LEAST_THRUST_MANY
+    least = share * abs(vehicle.thrust.mean)
+    return critical_thrust(replace(vehicle, damping=damping), least=least)
