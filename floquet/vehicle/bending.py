@@ -106,8 +106,8 @@ def _sign(vehicle: Vehicle, mesh: Mesh, motion: Any, shapes: Float) -> Float:
         aft = shapes[last]
     elif vehicle.ends[1] == "pinned":
         aft = shapes[n + last]
-    else:  # y is M d^2/(2 EI) at a distance d ahead
-        aft = np.array([np.ravel(motion.interpolate(y))[-1] for y in shapes[:n].T])
+    else:  # the rotation is -M d/EI at a distance d ahead, with shear too
+        aft = np.array([-np.ravel(motion.interpolate(psi))[-1] for psi in shapes[n:].T])
     return np.where(aft < 0.0, -1.0, 1.0)
 
 
