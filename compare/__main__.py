@@ -19,6 +19,7 @@ COMMANDS: tuple[str, ...] = (
     "listing",
     "figures",
     "claims",
+    "prove",
 )
 """Subcommands, each a module of `compare.commands` with SUMMARY, EPILOG, configure and run."""
 

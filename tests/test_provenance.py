@@ -65,6 +65,7 @@ CASES = {
         ["vehicle", VEHICLE, "--closely", "1", "--both", "0", "--output"],
         ("json", "md", "txt"),
     ),
+    "prove": (["prove", "T2-27", "--output"], ("json", "txt")),
     "claims": (["claims", "integrals", "--output"], ("json", "md", "txt")),
     "listing": (["listing", "uniform", "--output"], ("lst",)),
     "compared": (["listing", "uniform", "--compare", "--output"], ("lst",)),

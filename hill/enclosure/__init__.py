@@ -28,7 +28,7 @@ def enclose(
     """Enclose the characteristic polynomial P(z), its roots and T by the infinite determinant.
 
     The determinant is folded from outside; the product of all that lies beyond is a series in
-    Hurwitz's zeta functions whose remainder is bounded by Cauchy's estimate (docs/theory.md, 9).
+    Hurwitz's zeta functions whose remainder is bounded by Cauchy's estimate (docs/theory.md, 12).
 
     Parameters
     ----------

@@ -14,7 +14,7 @@ wider circle, but for aliases that the same estimate bounds. c_0 = c_1 = 0. Then
     sum_k h(x + g k) = sum_j c_j g^-j zeta(j, x/g),
 
 and what the terms left out, and the steps left out, amount to is bounded by geometric series.
-Everything is in row sums of moduli; the theory is in docs/theory.md, section 9.
+Everything is in row sums of moduli; the theory is in docs/theory.md, section 12.
 """
 
 from dataclasses import dataclass
