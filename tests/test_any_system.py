@@ -295,10 +295,10 @@ def test_refusals() -> None:
     ):
         chart(Odd(1.0), AXES)
     dashpots = MatrixSystem([[1.0]], [[1.0]])
-    damped = type("Damped", (Ziegler,), {})(1.0)
-    object.__setattr__(damped, "equation", lambda x, g, e=0.0: HillEquation(K, M, g, x, 0.1 * K))
-    with pytest.raises(ValueError, match="eta: is a matrix"):
-        chart(damped, AXES)
+    other = type("Other", (Ziegler,), {})(1.0)
+    object.__setattr__(other, "equation", lambda x, g, e=0.0: HillEquation(K, M, g, 2.0 * x, e))
+    with pytest.raises(ValueError, match=r"Omega = 0\.5: the equation's own is 1; it must be"):
+        chart(other, AXES)
     with pytest.raises(ValueError, match="axis = 'p'"):
         chart(dashpots, [("p", 0.0, 1.0, 5), ("Omega", 1.0, 2.0, 5)], forcing={"gamma": 0.1})
     with pytest.raises(ValueError, match="length from 0: must be greater than 0"):
@@ -498,7 +498,7 @@ def test_the_commands_take_it_from_a_file(
     assert np.shape(content["T"]) == np.shape(content["T_error"]) == (40, 60)
     first, head, *lines = (tmp_path / "t.csv").read_text().splitlines()
     assert json.loads(first.removeprefix("# "))["parameters"] == {"p": 1.0}
-    assert head.startswith("resonance,type,order,gamma")
+    assert head.startswith("resonance,type,order,crossing,gamma")
     assert lines[0].startswith("2 omega_(high)")
 
 

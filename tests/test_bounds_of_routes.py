@@ -291,12 +291,16 @@ def test_a_batch_counts_what_it_leaves_out_and_what_it_rounds(monkeypatch: Patch
 def test_F_and_the_damping_are_both_rounded() -> None:
     """Of 3 - 2,500 either moves the square by its own rounding; with two by their eigenvectors."""
     shift = np.array([2500.0])
-    _, moved = hill_batch._spectrum(np.array([[[3.0]]]), shift)
-    assert moved[0, 0] == 2503.0
-    F = np.array([[2.0, 1.0], [0.0, 3.0]])
-    _, moved = hill_batch._spectrum(F[:, :, None], 0.0 * shift)
+    coupling = np.array([[[5.0]]])
+    _, moved = hill_batch._spectrum(np.array([[[3.0]]]), shift, coupling)
+    assert moved[0, 0] == 2508.0
+    F = np.array([[2.0, 1.0], [0.0, 3.0]])[:, :, None]
+    _, moved = hill_batch._spectrum(F, 0.0 * shift, 0.0 * F)
     # 2 has l = (1, -1) and r = (1, 0), 3 has l = (0, 1) and r = (1, 1): |l| |F| |r| is 2 and 3
     assert np.sort(moved[:, 0]) == pytest.approx([2.0, 3.0])
+    # a coupling from the first to the second is where F has nothing: 2 + |l_2| |r_1|, and 3 + 1
+    _, moved = hill_batch._spectrum(F, 0.0 * shift, np.array([[0.0, 0.0], [1.0, 0.0]])[:, :, None])
+    assert np.sort(moved[:, 0]) == pytest.approx([3.0, 4.0])
     for w, x, eta in ((2.0, 0.25, 0.0), (2.0, 0.25, 30.0), (0.0, 1.0, 0.0)):
         square = w * w / x
         rounding, every = moved_by_data(np.array([[square]]), np.array([x]), np.array([eta]))

@@ -216,6 +216,23 @@ def test_a_damping_matrix_and_an_equation_of_first_order_have_charts() -> None:
     assert "2 omega_(1)" in {i.resonance.name for i in instabilities(c)}
 
 
+def test_damping_that_a_system_adds_is_in_the_multipliers() -> None:
+    """T of a chart is not read with the forcing's eta where the equation has more."""
+
+    @dataclass(frozen=True)
+    class Damped:
+        parameters = ()
+
+        def equation(self, Omega: float, gamma: float, eta: float = 0.0) -> HillEquation:
+            return HillEquation(STIFF, np.eye(2), gamma, Omega, eta + 0.05)
+
+    c = chart(Damped(), [("Omega", 1.8, 2.2, 20), ("gamma", 0.0, 0.5, 10)], route="floquet")
+    assert c.scenario.reading is IN_MU
+    x = crosscheck(Damped(), Omega=2.0, gamma=0.3)
+    (point,) = c.at(Omega=2.0, gamma=0.3).T
+    assert point == pytest.approx(x.T, abs=1e-9)
+
+
 def test_pairs_at_the_corners_only_are_no_pairs() -> None:
     @dataclass(frozen=True)
     class Odd:

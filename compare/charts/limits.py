@@ -45,6 +45,11 @@ def checked(system: Any, values: Values, fixed: Values) -> Equation:
     if isinstance(model, HillEquation):
         with suppress(Singular):  # the other forcing's own misfortune
             _check_promise(there, model, forcing)
+    if model.Omega != Omega:
+        raise ValueError(
+            f"Omega = {Omega:g}: the equation's own is {model.Omega:g}; it must be as asked, or "
+            "T is read with the wrong one"
+        )
     if not slow_enough(model):
         radians = model.period * fastest_motion(model)
         raise ValueError(

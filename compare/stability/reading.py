@@ -75,7 +75,7 @@ class Reading:
     kinds: tuple[str, ...]
 
     def form(self, equation: HillEquation | PeriodicEquation, eta: float) -> Any:
-        """An equation in the form in which it has such a polynomial.
+        """An equation, asked for at this eta, in the form in which it has such a polynomial.
 
         Raises
         ------
@@ -84,6 +84,11 @@ class Reading:
         """
         if self.general and isinstance(equation, HillEquation):
             return self.form(equation.general(), eta)
+        if isinstance(equation, HillEquation) and not np.array_equal(equation.eta, eta):
+            raise ValueError(
+                f"eta = {eta:g}: the equation's own is another one, as it is not at the corners of "
+                "the chart; T would be read with the wrong one"
+            )
         if self.pairs and not has_pairs(equation, eta):  # type: ignore[arg-type]
             raise ValueError(
                 f"Omega = {equation.Omega:g}: the multipliers come in no pairs, as they do at the "
@@ -155,7 +160,8 @@ def reading_of(
     equations: Sequence[HillEquation | PeriodicEquation], eta: Sequence[float]
 ) -> Reading:
     """What all of these have polynomials of, each forced at its own eta."""
-    if all(isinstance(e, HillEquation) and np.ndim(e.eta) == 0 for e in equations):
+    pairs = list(zip(equations, eta, strict=True))
+    if all(isinstance(e, HillEquation) and np.array_equal(e.eta, own) for e, own in pairs):
         return IN_Z
     general = [e.general() if isinstance(e, HillEquation) else e for e in equations]
     paired = all(has_pairs(e, own) for e, own in zip(general, eta, strict=True))
