@@ -1,10 +1,11 @@
 """One system by two routes: what each finds, how far they differ, what both show."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 import numpy as np
 
+from compare.proofs import Proof, prove
 from floquet import Monodromy, monodromy
 from floquet.witness import maker, rougher_maker
 from hill import Characteristic, Fourier, HillEquation, PeriodicEquation, characteristic
@@ -12,6 +13,7 @@ from hill.precision import remark
 from hill.stability import Verdict
 
 Method = Literal["taylor", "cvodes"]
+Precision = Literal["double", "proof"]
 
 # On what the last refinement of the witness's elements moved P by: they gain two digits each time.
 SAFETY = 4.0
@@ -49,6 +51,8 @@ class CrossCheck:
     remark : str
         What is known to less than nine digits, or not shown, by the route that knows T better; as
         of its results, `hill.precision`.
+    proof : Proof or None
+        Both routes' enclosures, where they were asked for; `verdict` is theirs then.
     """
 
     hill: Characteristic
@@ -60,6 +64,7 @@ class CrossCheck:
     routes_agree: bool
     verdict: Verdict
     remark: str
+    proof: Proof | None = None
 
     @property
     def stable(self) -> bool:
@@ -89,6 +94,7 @@ def crosscheck(
     gamma: float | None = None,
     eta: float = 0.0,
     method: Method = "taylor",
+    precision: Precision = "double",
 ) -> CrossCheck:
     """Solve an equation, or a system under a forcing, by both routes.
 
@@ -99,6 +105,9 @@ def crosscheck(
         The forcing of a system; an equation has its own.
     method : {"taylor", "cvodes"}, optional
         How the time domain integrates.
+    precision : {"double", "proof"}, optional
+        "proof" also encloses by both routes in ball arithmetic (extra `proof`): the verdict is
+        proven then, or undecided, also where double precision shows none.
 
     Returns
     -------
@@ -111,10 +120,13 @@ def crosscheck(
     OverflowError
         The growth over one period exceeds what a float can hold.
     """
+    if precision not in ("double", "proof"):
+        raise ValueError(f'precision = {precision!r}: must be "double" or "proof"')
     if isinstance(what, HillEquation | PeriodicEquation):
         if Omega is not None or gamma is not None or eta != 0.0:
             raise ValueError("Omega, gamma, eta: an equation has its own; leave them out")
-        return compare_routes(what, what, method=method)
+        x = compare_routes(what, what, method=method)
+        return _proven(x, what, {}, what.Omega) if precision == "proof" else x
     for name, value in (("Omega", Omega), ("gamma", gamma)):
         if value is None:
             raise ValueError(f"{name}: has no value; a system needs a forcing")
@@ -127,7 +139,23 @@ def crosscheck(
     make, rougher = maker(what), rougher_maker(what)
     other = make(what, Omega, gamma, eta) if make else own
     rough = rougher(what, Omega, gamma, eta) if rougher else None
-    return compare_routes(own, other, rough, method=method)
+    x = compare_routes(own, other, rough, method=method)
+    forcing = {"Omega": Omega, "gamma": gamma, "eta": eta}
+    return _proven(x, what, forcing, own.Omega) if precision == "proof" else x
+
+
+def _proven(x: CrossCheck, what: Any, forcing: dict[str, Any], Omega: float) -> CrossCheck:
+    """The same with the enclosures' verdict."""
+    proof, known = prove(what, forcing), _better(x.hill, x.floquet)
+    shown = {x.verdict, proof.verdict} - {"undecided"}
+    told = remark(known.T, known.T_error, Omega, proof.verdict, known.polynomial, known.error)
+    return replace(
+        x,
+        verdict=proof.verdict,
+        routes_agree=x.routes_agree and proof.meet and len(shown) < 2,
+        remark=told,
+        proof=proof,
+    )
 
 
 def compare_routes(

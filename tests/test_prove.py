@@ -7,13 +7,14 @@ from typing import Any
 
 import pytest
 
-from compare import proofs
+import floquet
+from compare import crosscheck, proofs
 from compare.__main__ import main
 from compare.commands import prove as command
 from compare.console import as_file
 from compare.report.proofs import RowProof, printed_interval, prove_row
 from compare.report.tables import all_rows, corrected
-from hill import HillEquation
+from hill import HillEquation, MatrixSystem
 
 ROWS = {row.id: row for row in all_rows()}
 
@@ -142,3 +143,46 @@ def test_without_the_extra(capsys: Any, monkeypatch: pytest.MonkeyPatch) -> None
     monkeypatch.setattr("floquet.enclosure.find_spec", lambda name: None)
     assert main(["prove", "T1-01"]) == 2
     assert "pip install 'floquet-crosscheck[proof]'" in capsys.readouterr().err
+
+
+# ---- precision = "proof" -------------------------------------------------------------------------
+
+
+def edge() -> tuple[HillEquation, float]:
+    """Mathieu's equation within a few ulps of the tongue at 2 w, and on which side it is."""
+    gamma, low, high = 0.3, 1.0, 1.2
+    equation = lambda F: HillEquation([[F]], [[1.0]], gamma, 2.0)  # noqa: E731
+    for _ in range(60):
+        F = 0.5 * (low + high)
+        inside = floquet.enclose(equation(F)).verdict == "unstable"
+        low, high = (F, high) if inside else (low, F)
+    return equation(high), high - low
+
+
+def test_proof_settles_what_double_precision_leaves_open() -> None:
+    e, width = edge()
+    assert width < 1e-15
+    assert crosscheck(e).verdict == "undecided"
+    settled = crosscheck(e, precision="proof")
+    assert settled.proof is not None
+    assert settled.verdict == settled.proof.verdict == "stable"
+    assert settled.routes_agree
+    assert settled.remark != crosscheck(e).remark
+
+
+def test_proof_of_a_system_and_of_a_beam() -> None:
+    pair = MatrixSystem([[2, -1], [-1, 2]], [[1, 0], [0, 1]])
+    x = crosscheck(pair, Omega=2.0, gamma=0.15, precision="proof")
+    assert x.verdict == "unstable"
+    assert x.proof is not None
+    assert not x.proof.decimals
+    beam = ROWS["T2-27"].beam(2)
+    y = crosscheck(beam, Omega=ROWS["T2-27"].Omega, gamma=0.1, precision="proof")
+    assert y.verdict == "unstable"
+    assert y.proof is not None
+    assert y.proof.decimals
+
+
+def test_an_unknown_precision_is_refused() -> None:
+    with pytest.raises(ValueError, match='must be "double" or "proof"'):
+        crosscheck(edge()[0], precision="quadruple")  # type: ignore[arg-type]

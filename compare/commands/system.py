@@ -2,6 +2,7 @@
 
 import argparse
 from pathlib import Path
+from typing import Any
 
 from compare import system_file
 from compare.both_routes import crosscheck
@@ -83,7 +84,8 @@ def run(options: argparse.Namespace) -> int:
     if options.output is not None:
         check_writable(options.output)
     with working("both routes"):
-        result = crosscheck(found.system, **found.forcing, method=options.method)
+        forcing: dict[str, Any] = dict(found.forcing)
+        result = crosscheck(found.system, **forcing, method=options.method)
     frequencies = natural_frequencies(found.system)
     subject = Subject(
         title=found.title,

@@ -28,7 +28,7 @@ from hill.enclosure.rows import Rows
 WIDER = 4
 
 # Steps of the elimination tried, and harmonics: a system that takes more is beyond it.
-MOST_STEPS, MOST_HARMONICS = 60, 20000
+MOST_STEPS, MOST_HARMONICS = 60, 6000
 
 
 class TooWide(ValueError):
