@@ -206,7 +206,7 @@ def test_a_damping_matrix_and_an_equation_of_first_order_have_charts() -> None:
     )
     axes = [("Omega", 1.2, 2.8, 30), ("gamma", 0.0, 1.0, 20)]
     for system, order in ((Dashpots(), 4), (rotating, 3)):
-        c = chart(system, axes)
+        c = chart(system, axes, tolerance=1e-8)
         assert c.scenario.coordinates == order
         assert c.routes_agree
         for Omega, gamma in ((1.9, 0.9), (2.3, 0.2)):
@@ -372,6 +372,7 @@ def test_from_a_file(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None
     pytest.importorskip("matplotlib")
     (tmp_path / "mine.toml").write_text(FILE)
     asked = ["chart", str(tmp_path / "mine.toml"), "--tongues", str(tmp_path / "t.csv")]
+    asked += ["--route", "floquet"]
     assert main([*asked, "--output", str(tmp_path / "c.svg")]) == 0
     assert "2 omega_(low)" in capsys.readouterr().out
     head, *lines = (tmp_path / "t.csv").read_text().splitlines()[1:]
