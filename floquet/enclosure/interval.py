@@ -24,7 +24,7 @@ from scipy.linalg import matrix_balance
 from floquet.arrays import frozen
 from floquet.enclosure import beams
 from floquet.enclosure.balls import Problem, exact, norm, number
-from floquet.enclosure.judgement import log_R
+from floquet.enclosure.judgement import is_real, log_R
 from floquet.enclosure.narrow import narrowed, square
 from floquet.enclosure.result import IntervalProof
 from hill import SteppedBeam, UniformBeam
@@ -220,9 +220,7 @@ def _by_discs(v: list[Any], value: Callable[[Any], Any], decay: Any) -> str:
         discs.append(z + acb(ball, ball))
     apart = [not any(z.overlaps(w) for j, w in enumerate(discs) if j != i)
              for i, z in enumerate(discs)]  # fmt: skip
-    growth = [
-        log_R(z, alone and bool(z.imag.contains(0))) for z, alone in zip(discs, apart, strict=True)
-    ]
+    growth = [log_R(z, alone and is_real(z, discs)) for z, alone in zip(discs, apart, strict=True)]
     # an isolated disc has a root of its own
     if any(alone and bool(g > decay) for g, alone in zip(growth, apart, strict=True)):
         return "unstable"

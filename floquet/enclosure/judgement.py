@@ -65,7 +65,7 @@ def judged(truth: Sequence[Any], Omega: Any, eta: Any) -> Growth:
             largest = reduce(lambda a, b: a.max(b), (abs(z) for z in found.balls))
             T = scale * largest.log() if largest.lower() > 0 else arb.nan()
             return Growth(T, _sign(T))
-        real = [found.simple and bool(z.imag.contains(0)) for z in found.balls]
+        real = [found.simple and is_real(z, found.balls) for z in found.balls]
         inside = [r and bool(abs(z.real) < 1) for z, r in zip(found.balls, real, strict=True)]
         logs = [log_R(z, r) for z, r in zip(found.balls, real, strict=True)]
         T = scale * reduce(lambda a, b: a.max(b), logs) - number(eta)
@@ -78,6 +78,16 @@ def _sign(T: Any) -> Truth:
     if not T.is_finite() or float(T.rad()) > 1e-25:
         return "unstable" if T > 0 else "stable" if T < 0 else "unknown"
     return "unstable" if T > 0 else "stable" if T < 0 else "boundary"
+
+
+def is_real(z: Any, balls: Sequence[Any]) -> bool:
+    """Whether the one root of a ball apart from the others is real, as P is.
+
+    Its conjugate is a root, and where no other ball can hold that it is the same.
+    """
+    if not z.imag.contains(0):
+        return False
+    return not any(z.conjugate().overlaps(w) for w in balls if w is not z)
 
 
 def log_R(z: Any, real: bool) -> Any:

@@ -74,10 +74,8 @@ def _value(P: list[Any], z: Any) -> Any:
 
 def _growth(roots: tuple[Any, ...]) -> Any:
     """Ln max R as a ball: each connected set of discs has as many roots as discs."""
-    single = [
-        not any(z.overlaps(w) for j, w in enumerate(roots) if j != i) for i, z in enumerate(roots)
-    ]
-    # P is real: alone in a disc that meets its own conjugate a root is real
+    single = [_alone(roots, i) for i in range(len(roots))]
+    # P is real: a root's conjugate is a root, and where no other disc can hold it it is the same
     bounds = [
         _log_R(z, real=alone and bool(z.imag.contains(0)))
         for z, alone in zip(roots, single, strict=True)
@@ -88,6 +86,12 @@ def _growth(roots: tuple[Any, ...]) -> Any:
         least = reduce(lambda a, b: a.min(b), (bounds[i][0] for i in connected))
         low = low.max(least)
     return low.union(high)
+
+
+def _alone(roots: tuple[Any, ...], i: int) -> bool:
+    """Whether neither a disc nor its conjugate meets any other."""
+    z, others = roots[i], (w for j, w in enumerate(roots) if j != i)
+    return not any(z.overlaps(w) or z.conjugate().overlaps(w) for w in others)
 
 
 def _connected(roots: tuple[Any, ...]) -> list[list[int]]:
