@@ -228,6 +228,13 @@ def _all() -> dict[str, tuple[list[str], str]]:
     add("figures", ["figures", "--figure", "2"])
     add("figures output", ["figures", "--output", "locked.csv"])
     add("claims", ["claims", "--format", "xml"])
+    add("prove row", ["prove", "T1-7"], "T1-7")
+    add("prove file and row", ["prove", "good.toml", "T1-01"], "good.toml")
+    add("prove gone", ["prove", "gone.toml"], "gone.toml")
+    add("prove interval of a file", ["prove", "good.toml", "--interval"], "--interval")
+    add("prove setting of a row", ["prove", "T1-01", "--set", "Omega=2"], "--set")
+    add("prove workers", ["prove", "T1-01", "--workers", "0"], "workers")
+    add("prove output", ["prove", "T1-01", "--output", "gone/x.json"], "output")
     return found
 
 

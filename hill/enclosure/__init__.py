@@ -8,11 +8,15 @@ import numpy as np
 from hill.beams import SteppedBeam, UniformBeam
 from hill.decimals import Number, exact_beam
 from hill.equation import HillEquation
+from hill.periodic import PeriodicEquation
 
 if TYPE_CHECKING:
     from hill.enclosure.result import Enclosure
 
 NO_BALLS = "enclosures need python-flint: pip install 'floquet-crosscheck[proof]'"
+
+# Where damping pulsates, or of first order, rows fall like 1/m: no trace norm, no geometric series.
+NO_Z = "the determinant is enclosed for equations with z only; floquet.enclose does without"
 
 
 def enclose(
@@ -60,11 +64,10 @@ def enclose(
         if Omega is not None or gamma is not None or eta != 0 or initial_terms or ratio is not None:
             raise ValueError("Omega, gamma, eta: an equation has its own; leave them out")
         if np.ndim(what.eta) > 0:
-            raise ValueError(
-                "eta is a matrix: the tail's bound is for P(z), which needs one number; "
-                "floquet.enclose does without"
-            )
+            raise ValueError(f"eta is a matrix: {NO_Z}")
         return prove.of_equation(what, bits)
+    if isinstance(what, PeriodicEquation):
+        raise ValueError(f"PeriodicEquation: {NO_Z}")
     if not isinstance(what, UniformBeam | SteppedBeam):
         raise ValueError(
             f"{type(what).__name__}: must be a HillEquation, a UniformBeam or a SteppedBeam"
