@@ -11,16 +11,21 @@ In the states (q_m, v_m) that is (H - lambda) x = 0 with a constant H. An equati
 has s_m q_m - sum A_k q_(m-k) = 0, and no v.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 import numpy as np
-from scipy.linalg.lapack import zgetrf, zgetrs
+from scipy.linalg.lapack import zgbtrf, zgbtrs, zgetrf, zgetrs
 
 from hill.arrays import Complex
 from hill.errors import Refused
 from hill.periodic import Fourier, PeriodicEquation
+
+# A matrix that is wider than its half band by this factor is eliminated by the band: its own
+# storage is that of three half bands, which its filling costs a small matrix more than it saves.
+NARROW = 4
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,6 +92,24 @@ class Corner:
         found[:, harmonic - self.low] = vector.reshape(-1, n)
         return found.ravel()
 
+    def widened(self, block: Complex) -> Complex:
+        """Columns of states of a smaller corner about the same harmonics, 0 in the others."""
+        n, count, columns = self.n, self.high - self.low + 1, block.shape[1]
+        parts = 1 if self.of_first_order else 2
+        inner = block.reshape(parts, -1, n, columns)
+        found = np.zeros((parts, count, n, columns), complex)
+        beyond = (count - inner.shape[1]) // 2
+        found[:, beyond : count - beyond] = inner
+        return found.reshape(-1, columns)
+
+    @cached_property
+    def band(self) -> int:
+        """Diagonals on either side of the matrix's own beyond which all elements are 0."""
+        e = self.equation
+        parts = [e.A] if e.A is not None else [e.K, e.C]
+        farthest = max((k for part in parts if part for k in part.harmonics), default=0)
+        return int((farthest + 1) * self.n - 1)
+
     @property
     def Omega_m(self) -> Any:
         """M Omega of every row, a column."""
@@ -99,10 +122,33 @@ class Corner:
             matrix = np.diag(s[:, 0]) + self.stiffness
         else:
             matrix = np.diag(s[:, 0] ** 2) + self.damping * s[:, 0] + self.stiffness
+        return Inverse(self, s, _eliminated(matrix, self.band, exponent))
+
+
+Solve = Callable[[Complex], Complex]
+
+
+def _eliminated(matrix: Complex, band: int, exponent: complex) -> Solve:
+    """What solves with a matrix, by its band where that is narrower; of several columns."""
+    size = len(matrix)
+    if NARROW * band < size:
+        diagonals = np.zeros((3 * band + 1, size), complex)
+        for d in range(-band, band + 1):
+            diagonals[2 * band - d, max(d, 0) : size + min(d, 0)] = matrix.diagonal(d)
+        factors, pivots, singular = zgbtrf(diagonals, band, band, overwrite_ab=True)
+
+        def solve(column: Complex) -> Complex:
+            return np.asarray(zgbtrs(factors, band, band, column, pivots)[0])
+    else:
         factors, pivots, singular = zgetrf(matrix, overwrite_a=True)
-        if singular:
-            raise Refused(f"an exponent is {exponent:g} to the last bit")
-        return Inverse(self, s, (factors, pivots))
+
+        def solve(column: Complex) -> Complex:
+            return np.asarray(zgetrs(factors, pivots, column)[0])
+
+    if singular:
+        raise Refused(f"an exponent is {exponent:g} to the last bit")
+    # column by column: a library of several threads wakes them for two, a hundred times slower
+    return lambda load: np.stack([solve(x) for x in np.atleast_2d(load.T)], axis=1)
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,18 +157,13 @@ class Inverse:
 
     corner: Corner
     s: Complex
-    factors: Any
-
-    def _solved(self, load: Complex) -> Complex:
-        # column by column: a library of several threads wakes them for two, a hundred times slower
-        columns = [zgetrs(*self.factors, column)[0] for column in np.atleast_2d(load.T)]
-        return np.stack(columns, axis=1)
+    solve: Solve
 
     def right(self, x: Complex) -> Complex:
         """(H - exponent)^-1 x."""
         if self.corner.of_first_order:
-            return -self._solved(x)
+            return -self.solve(x)
         f, g = np.split(x, 2)
         load = g + self.s * f + self.corner.damping @ f
-        q = -self._solved(load)
+        q = -self.solve(load)
         return np.concatenate([q, f + self.s * q])

@@ -110,9 +110,10 @@ def pair(equation: HillEquation | PeriodicEquation, resonance: Resonance, alone:
     """
     e = equation.general() if isinstance(equation, HillEquation) else equation
     before: Pair | None = None
+    block: Complex | None = None
     for beyond in BEYOND:
         corner = Corner(e, -resonance.order - beyond, beyond)
-        found = _nearest(corner, resonance, alone)
+        found, block = _nearest(corner, resonance, alone, block)
         if before is not None:
             now = found.moved(before)
             allowed = TOLERANCE * e.Omega
@@ -125,8 +126,13 @@ def pair(equation: HillEquation | PeriodicEquation, resonance: Resonance, alone:
     raise Refused(f"{resonance.name}: too many harmonics take part at Omega = {e.Omega:g}")
 
 
-def _nearest(corner: Corner, resonance: Resonance, alone: Steady) -> Pair:
-    """The pair of a corner; its errors are those of rounding."""
+def _nearest(
+    corner: Corner, resonance: Resonance, alone: Steady, near: Complex | None = None
+) -> tuple[Pair, Complex]:
+    """The pair of a corner, its errors those of rounding, and the span of its two vectors.
+
+    It is looked for from the two oscillations on, or from such a span of a smaller corner.
+    """
     k, Omega = resonance.order, corner.equation.Omega
     exponents, right, left = _two(resonance, alone)
     start, read = (
@@ -135,8 +141,9 @@ def _nearest(corner: Corner, resonance: Resonance, alone: Steady) -> Pair:
     )
     middle = 0.5 * (exponents[0] + exponents[1] + 1j * k * Omega) + BESIDE * Omega
     before, moved, third = None, None, np.inf
-    for T, V in _projections(corner.about(middle), start):
-        mean, square, third = _chosen(T, read.T @ V, V.conj().T @ start)
+    first = start if near is None else corner.widened(near)
+    for T, V in _projections(corner.about(middle), first):
+        mean, square, third, vectors = _chosen(T, read.T @ V, V.conj().T @ start)
         size = abs(middle + mean) + Omega
         now = Pair(
             middle + mean,
@@ -151,11 +158,11 @@ def _nearest(corner: Corner, resonance: Resonance, alone: Steady) -> Pair:
                 and moved.square_error <= 2.0 * now.square_error
                 and third < ALIKE
             ):
-                return now
+                return now, V @ vectors
         before = now
     # where the two meet they may be known to less
     if moved is not None and third < ALIKE and moved.error <= WORST * Omega:
-        return moved
+        return moved, V @ vectors
     raise Refused(
         f"{resonance.name}: at Omega = {Omega:g} a third oscillation cannot be told from the two"
     )
@@ -192,15 +199,17 @@ def _projections(inverse: Inverse, start: Complex) -> Iterator[tuple[Complex, Co
         T = np.vstack([T, np.hstack([np.zeros((2, T.shape[1] - 2)), rest])])
 
 
-def _chosen(T: Complex, read: Complex, start: Complex) -> tuple[complex, complex, float]:
+def _chosen(T: Complex, read: Complex, start: Complex) -> tuple[complex, complex, float, Complex]:
     """Of the two most like the oscillations: half the sum of 1/value, half the difference squared.
 
     The oscillations' vectors are sums of T's, and what each adds to ``read @ start``, which is the
-    identity, is how much it takes part. Last, the third's part over the second's.
+    identity, is how much it takes part. Then the third's part over the second's, and what the two
+    are in the columns of `read`.
     """
     values, vectors = np.linalg.eig(T)
     part = np.abs(np.sum((read @ vectors).T * np.linalg.solve(vectors, start), axis=1))
     third, second, first = np.argsort(np.append(part, -1.0))[-3:]
     one, other = 1.0 / values[first], 1.0 / values[second]
     alike = float(part[third] / part[second]) if third < len(part) else 0.0
-    return 0.5 * complex(one + other), 0.25 * complex(one - other) ** 2, alike
+    both = vectors[:, [first, second]]
+    return 0.5 * complex(one + other), 0.25 * complex(one - other) ** 2, alike, both

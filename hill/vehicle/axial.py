@@ -169,21 +169,26 @@ def _swept(
     mass = np.zeros(len(start) + 1)
     mass[::panels] = mesh.mass
     nose, aft = held(ends)
-    v = np.array([1.0, 0.0] if nose else [mass[0], 1.0], start.dtype)
-    left = [v]
-    for k in range(thrust):
-        v = forward[k] @ v
-        v[0] += mass[k + 1] * v[1]
-        left.append(v)
-    v = np.array([1.0, 0.0] if aft else [-mass[-1] * (thrust < len(start)), 1.0], start.dtype)
-    right = [v]
-    backward = _inverse(forward)
+    # numbers one by one: an array of two takes ten times as long to be made
+    loads = mass.tolist()
+    P: complex
+    U: complex
+    P, U = (1.0, 0.0) if nose else (loads[0], 1.0)
+    left: list[tuple[complex, complex]] = [(P, U)]
+    for k, (a, b, c, d) in enumerate(forward[:thrust].reshape(-1, 4).tolist(), start=1):
+        P, U = a * P + b * U, c * P + d * U
+        P += loads[k] * U
+        left.append((P, U))
+    P, U = (1.0, 0.0) if aft else (-loads[-1] * (thrust < len(start)), 1.0)
+    right: list[tuple[complex, complex]] = [(P, U)]
+    backward = _inverse(forward).reshape(-1, 4).tolist()
     for k in range(len(start) - 1, thrust - 1, -1):
-        v = backward[k] @ v
-        right.append(v)
+        a, b, c, d = backward[k]
+        P, U = a * P + b * U, c * P + d * U
+        right.append((P, U))
         if k > thrust:
-            v = v - np.array([mass[k] * v[1], 0.0])
-    return np.array(left), np.array(right[::-1])
+            P -= loads[k] * U
+    return np.array(left, start.dtype), np.array(right[::-1], start.dtype)
 
 
 def _chain(mesh: Mesh, ends: tuple[str, str], s: float) -> Complex:
