@@ -1,6 +1,6 @@
 """The witness: a periodic system in the time domain, its monodromy matrix, what follows from it."""
 
-from floquet.enclosure import enclose, enclose_interval
+from floquet.enclosure import enclose, enclose_interval, enclose_region
 from floquet.general.of_time import EstimatedMonodromy
 from floquet.period import monodromy
 from floquet.result import Monodromy
@@ -24,6 +24,7 @@ __all__ = [
     "beam_sensitivities",
     "enclose",
     "enclose_interval",
+    "enclose_region",
     "general_sensitivities",
     "monodromy",
     "sensitivities",

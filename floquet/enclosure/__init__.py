@@ -3,11 +3,11 @@
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
-from hill import HillEquation, PeriodicEquation, SteppedBeam, UniformBeam
+from hill import HillEquation, PeriodicEquation, SteppedBeam, UniformBeam, checks
 from hill.decimals import Number
 
 if TYPE_CHECKING:
-    from floquet.enclosure.result import Enclosure, IntervalProof
+    from floquet.enclosure.result import Enclosure, IntervalProof, RegionProof
 
 NO_BALLS = "enclosures need python-flint: pip install 'floquet-crosscheck[proof]'"
 
@@ -91,6 +91,44 @@ def enclose_interval(
     from floquet.enclosure import interval
 
     return interval.prove(_beam(beam), Omega, gamma, eta, initial_terms, ratio)
+
+
+def enclose_region(
+    beam: UniformBeam | SteppedBeam,
+    *,
+    Omega: tuple[Number, Number],
+    gamma: tuple[Number, Number],
+    strips: int = 200,
+    halvings: int = 9,
+) -> "RegionProof":
+    """Prove what holds for every Omega and gamma of a rectangle, without damping.
+
+    Parameters
+    ----------
+    Omega, gamma : (low, high)
+    strips : int, optional
+        In gamma; each is decided as a whole, part by part in Omega.
+    halvings : int, optional
+        A part of 2**-halvings of a block of Omega that is not decided is left so. A block reaches
+        to 7/5 of its least Omega.
+
+    Returns
+    -------
+    RegionProof
+
+    Raises
+    ------
+    ValueError
+        As `enclose`; an omega_L that is not infinite.
+    """
+    if find_spec("flint") is None:
+        raise ValueError(NO_BALLS)
+    from floquet.enclosure import region
+
+    strips = checks.count("strips", strips, least=1)
+    return region.prove(
+        _beam(beam), Omega, gamma, strips, checks.count("halvings", halvings, least=0)
+    )
 
 
 def _beam(what: Any) -> UniformBeam | SteppedBeam:

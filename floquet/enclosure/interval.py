@@ -68,7 +68,7 @@ def prove(
     ends = [(series.Omega(b), series.Omega(a), kind) for a, b, kind in reversed(parts)]
     return IntervalProof(
         Omega=(float(low), float(high)),
-        parts=_merged(ends),
+        parts=merged(ends),
         nodes=series.nodes,
         remainder=float(series.remainder.upper()),
     )
@@ -88,7 +88,7 @@ class Series:
         unit = at(arb(1))
         self.n = unit.n
         self.nodes, self.remainder = _remainder(
-            _stiffness(unit), self.n, float(self.middle), float(self.half)
+            norm_in_units(unit), self.n, float(self.middle), float(self.half)
         )
         self.coefficients = self._interpolated(at)
 
@@ -106,7 +106,7 @@ class Series:
         def equation(i: int) -> Problem:
             return at(self.k((arb(2 * i + 1) / (2 * count)).cos_pi()))
 
-        values = [_polynomial(partial(equation, i)) for i in range(count)]
+        values = [polynomial_of(partial(equation, i)) for i in range(count)]
         # the sum over k of (2/N) sum_i f(x_i) T_k(x_i) T_k(x), half of it for k = 0
         chebyshev = [arb_poly([1]), arb_poly([0, 1])]
         while len(chebyshev) < count:
@@ -131,19 +131,22 @@ class Series:
         return [p(arb_poly([(a + b) / 2, (b - a) / 2])) for p in self.coefficients]
 
 
-def _polynomial(make: Callable[[], Problem]) -> list[Any]:
+def polynomial_of(make: Callable[[], Problem]) -> list[Any]:
+    """P's balls, monic, highest power first."""
     return narrowed(lambda: list(reversed(square(make()).charpoly().coeffs())), LEFT_OUT + 30)
 
 
-def _stiffness(given: Problem) -> float:
-    """Norm of all of it, in units in which it is small."""
-    every = [given.K, *(M for _, M in given.pulses)]
+def norm_in_units(given: Problem, of: Problem | None = None) -> float:
+    """Norm of all of it, in units in which `of`, or it itself, is small."""
+    whole = given if of is None else of
+    every = [whole.K, *(M for _, M in whole.pulses)]
     sizes = sum(
         np.array([[float(x.abs_upper()) for x in row] for row in M.tolist()]) for M in every
     )
     _, (scale, _) = matrix_balance(sizes, permute=False, separate=True)
     there, back = exact(np.diag(1.0 / scale)), exact(np.diag(scale))
-    return float(sum(norm(there * M * back) for M in every))
+    own = [given.K, *(M for _, M in given.pulses)]
+    return float(sum(norm(there * M * back) for M in own))
 
 
 def _remainder(S: float, n: int, middle: float, half: float) -> tuple[int, Any]:
@@ -189,13 +192,27 @@ def _verdict(series: Series, a: float, b: float, eta: Any) -> str:
         left = off * reduce(add, (abs(w) for w in powers))
         return acb(_range(real, left), _range(imag, left))
 
-    middle = np.array([float(p[0]) for p in local])
-    with np.errstate(all="ignore"):
-        v = sorted(np.roots(middle), key=lambda z: -z.real)
     decay = arb(0)
     if eta is not None:
         # of all Omega = k^(-1/2) of the part
         decay = arb.pi() * eta * series.k(arb((a + b) / 2, (b - a) / 2)).sqrt()
+    return decided(value, [float(p[0]) for p in local], decay)
+
+
+def decided(value: Callable[[Any], Any], middle: list[float], decay: Any) -> str:
+    """Stable, unstable or undecided, from balls that hold P(z) for all of a part.
+
+    Parameters
+    ----------
+    value : callable
+        z to that ball.
+    middle : list of float
+        P's coefficients at some place of the part, as far as floats tell.
+    decay : arb
+        pi eta/Omega for all of it.
+    """
+    with np.errstate(all="ignore"):
+        v = sorted(np.roots(middle), key=lambda z: -z.real)
     edge = decay.cosh() if decay > 0 else arb(1)
     between = [arb(float(x.real + y.real) / 2) for x, y in pairwise(v)]
     points = [edge, *between, -edge]
@@ -238,7 +255,8 @@ def _range(p: Any, left: Any) -> Any:
     return coefficients[0] + arb(0, total.upper())
 
 
-def _merged(parts: list[tuple[float, float, str]]) -> tuple[tuple[float, float, str], ...]:
+def merged(parts: list[tuple[float, float, str]]) -> tuple[tuple[float, float, str], ...]:
+    """Neighbours of one kind as one."""
     found = []
     for kind, group in groupby(parts, key=lambda part: part[2]):
         same = list(group)

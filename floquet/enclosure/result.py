@@ -1,6 +1,7 @@
 """What is enclosed."""
 
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any, Literal
 
 
@@ -77,3 +78,44 @@ class IntervalProof:
         """Of the interval, of one kind."""
         total = sum(high - low for low, high, found in self.parts if found == kind)
         return total / (self.Omega[1] - self.Omega[0])
+
+
+@dataclass(frozen=True)
+class RegionProof:
+    """What is proven of every point of a rectangle of Omega and gamma.
+
+    Attributes
+    ----------
+    Omega, gamma : tuple of float
+        Ends.
+    strips : tuple of (float, float, parts)
+        Ascending: gamma's ends, and parts in Omega as of an `IntervalProof`, each for every gamma
+        of the strip.
+    """
+
+    Omega: tuple[float, float]
+    gamma: tuple[float, float]
+    strips: tuple[tuple[float, float, tuple[tuple[float, float, str], ...]], ...]
+
+    def share(self, kind: str) -> float:
+        """Of the rectangle, of one kind."""
+        total = sum(
+            (b - a) * (high - low)
+            for a, b, parts in self.strips
+            for low, high, found in parts
+            if found == kind
+        )
+        area = (self.Omega[1] - self.Omega[0]) * (self.gamma[1] - self.gamma[0])
+        return total / area
+
+    def cells(self, columns: int) -> tuple[tuple[str, ...], ...]:
+        """A verdict a cell, strips by equal columns of Omega: what holds at every point of it."""
+        low, high = self.Omega
+        edges = [low + (high - low) * i / columns for i in range(columns + 1)]
+        return tuple(
+            tuple(
+                next((kind for c, d, kind in parts if c <= a and b <= d), "undecided")
+                for a, b in pairwise(edges)
+            )
+            for _, _, parts in self.strips
+        )
