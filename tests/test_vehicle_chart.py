@@ -1,5 +1,6 @@
 """A study's chart: what it holds, that its axis is in cycles, and what is refused."""
 
+from dataclasses import replace
 from math import pi
 from pathlib import Path
 from typing import Any
@@ -10,9 +11,10 @@ import pytest
 from compare import crosscheck
 from compare.__main__ import main
 from compare.chart_ticks import ticks_in_cycles
+from compare.edges.tongue import RANGE, TIP
 from compare.vehicle import charted as module
 from compare.vehicle.charted import charted
-from compare.vehicle.study import study
+from compare.vehicle.study import Study, study
 from hill import Damping, Vehicle
 
 pytest.importorskip("skfem")
@@ -48,6 +50,52 @@ def test_the_chart_is_the_vehicles_own() -> None:
     # between a tongue's points it is interpolated
     assert own.at(0.15) == pytest.approx(row.band.edges, abs=0.01 * row.band.width)
     assert row.critical == pytest.approx(float(own.y[0]), rel=1e-3)
+
+
+@pytest.fixture(scope="module")
+def fed_back() -> tuple[Vehicle, Study]:
+    """Rate feedback: the damping pulsates, and P is one of the multipliers."""
+    v = replace(Vehicle.from_file(EXAMPLES / "three_stage.toml"), modes=2)
+    return v, study(v, gamma=0.1, Omega=10.8, orders=1, witness=0, more=3)
+
+
+def test_a_general_vehicles_chart_is_the_time_domains_and_its_tongues_the_bands(
+    fed_back: tuple[Vehicle, Study], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(module, "COUNTS_GENERAL", (40, 20))
+    v, found = fed_back
+    stages: list[str] = []
+    made, edges = charted(found, lambda name, *_: stages.append(name))
+    assert (made.route, made.T.shape) == ("floquet", (20, 40))
+    assert {"nodes", "tongues"} <= set(stages)
+    names = [e.resonance.name for e in edges]
+    assert names == [r.resonance.name for r in found.rows if r.critical and r.critical < 0.3]
+    # the picture reaches as far as these and the operating point do
+    Omega = made.axes[0]
+    low, high = (f(e.lower[0] for e in edges) for f in (min, max))
+    assert Omega.low == pytest.approx(0.8 * low, rel=1e-3)
+    assert Omega.high == pytest.approx(max(high, 10.8) / 0.8, rel=1e-3)
+    for tongue in edges:
+        row = next(r for r in found.rows if r.resonance == tongue.resonance)
+        assert (tongue.begins, tongue.ends) == (TIP, RANGE)
+        assert tongue.y[0] == pytest.approx(row.critical)
+        assert tongue.lower[0] == tongue.upper[0]
+        for k in (10, -1):
+            low, high = tongue.lower[k], tongue.upper[k]
+            step = 0.02 * (high - low)
+            for at, verdict in ((low, "stable"), (high, "stable"), (low, "unstable")):
+                off = step if verdict == "unstable" else -step if at == low else step
+                x = crosscheck(v, Omega=at + off, gamma=float(tongue.y[k]))
+                assert (x.verdict, x.routes_agree) == (verdict, True)
+
+
+def test_a_range_that_is_asked_for_is_drawn_whole(
+    fed_back: tuple[Vehicle, Study], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(module, "COUNTS_GENERAL", (20, 10))
+    found = study(fed_back[0], gamma=0.1, span=(9.0, 20.0), orders=1, witness=0, more=3)
+    made, _ = charted(found, lambda *_: None)
+    assert (made.axes[0].low, made.axes[0].high) == (9.0, 20.0)
 
 
 @pytest.mark.parametrize("x", ["Omega", "gamma"])

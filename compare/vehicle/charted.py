@@ -12,6 +12,7 @@ from compare.charts.result import Chart
 from compare.charts.scenario import scenario
 from compare.edges.on_chart import tongues
 from compare.edges.tongue import Tongue
+from compare.vehicle.outlines import outlines
 from compare.vehicle.study import Study
 from hill import Vehicle
 
@@ -20,12 +21,18 @@ PICTURES = (".png", ".svg")
 # Points of the picture's axes: as many as it has dots, about.
 COUNTS = (600, 300)
 
+# And where P is one of the multipliers: T takes the eigenvalues of a matrix at every point.
+COUNTS_GENERAL = (300, 150)
+
 # Pulsation ratios that are drawn, over the vehicle's own and over the lowest that opens a band.
 OVER_OWN, OVER_LOWEST = 3.0, 2.0
 LARGEST = 1.0
 
-# Of the lowest resonance, where the range has no beginning; and of the range's end.
+# Of the lowest resonance, where the range has no beginning; and of the range's end: P oscillates
+# in 1/Omega, and takes nodes in proportion.
 BELOW, LEAST = 0.8, 0.02
+# And of it where the picture reaches no farther than what opens in it.
+LEAST_SEEN = 0.01
 
 # Over the highest resonance, which may be the range's end: its tongue is drawn.
 BEYOND = 1.04
@@ -46,6 +53,10 @@ def check_charted(vehicle: Vehicle, gamma: float, eta: float, path: Path) -> Non
 def charted(study: Study, stage: Callable[[str, int, int], Any]) -> tuple[Chart, list[Tongue]]:
     """The chart of what was studied, and its tongues.
 
+    Of Hill's equation both routes make the chart, and the tongues are followed on it. Of any other
+    the time domain makes it alone, for a determinant takes tens of milliseconds a node, and the
+    tongues are the study's own bands, by Hill's matrix.
+
     Parameters
     ----------
     study : Study
@@ -53,24 +64,43 @@ def charted(study: Study, stage: Callable[[str, int, int], Any]) -> tuple[Chart,
         As of `study`.
     """
     system, forcing = _as_charts_have_it(study.vehicle, study.eta)
-    rows = [row.band.Omega for row in study.rows]
-    low = study.low or max(BELOW * min(rows, default=study.high), LEAST * study.high)
-    high = max(study.high, BEYOND * max(rows, default=0.0))
     opens = min((row.critical for row in study.rows if row.critical), default=0.0)
     top = min(max(OVER_OWN * abs(study.gamma), OVER_LOWEST * opens), LARGEST)
-    made = chart(
-        system,
-        (Axis("Omega", low, high, COUNTS[0]), _ratios(top, COUNTS[1])),
-        forcing=forcing,
-        stage=stage,
-    )
-    found = tongues(made, study.orders, progress=lambda k, n: stage("tongues", k, n))
-    return made, list(found)
+    low, high = _range(study, top)
+
+    def axes(counts: tuple[int, int]) -> tuple[Axis, Axis]:
+        return Axis("Omega", low, high, counts[0]), _ratios(top, counts[1])
+
+    def followed(done: int, of: int) -> None:
+        stage("tongues", done, of)
+
+    if not scenario(system, axes(COUNTS), forcing).reading.general:
+        made = chart(system, axes(COUNTS), forcing=forcing, stage=stage)
+        return made, list(tongues(made, study.orders, progress=followed))
+    made = chart(system, axes(COUNTS_GENERAL), forcing=forcing, route="floquet", stage=stage)
+    return made, outlines(study, top, followed)
+
+
+def _range(study: Study, top: float) -> tuple[float, float]:
+    """Omega from one end of the picture to the other: what was asked for, or what there is to see.
+
+    That is the operating point and what opens below the picture's top, or else the resonances.
+    """
+    rows = [row.band.Omega for row in study.rows]
+    opening = [r.band.Omega for r in study.rows if r.critical is not None and r.critical < top]
+    if study.of_itself and opening:
+        seen = [*opening, *([study.Omega] if study.Omega else [])]
+        return max(BELOW * min(seen), LEAST_SEEN * study.high), max(seen) / BELOW
+    low = study.low or max(BELOW * min(rows, default=study.high), LEAST * study.high)
+    return low, max(study.high, BEYOND * max(rows, default=0.0))
 
 
 def drawn(title: str, study: Study, kind: str, stage: Callable[[str, int, int], Any]) -> bytes:
     """The picture as PNG or SVG, the tongues by their names, the operating point marked."""
     made, edges = charted(study, stage)
+    stage("picture", 0, 0)
+    if made.route == "floquet":
+        title = f"{title}: T by the time domain, tongues by Hill's matrix"
     marks = []
     if study.operating is not None and study.Omega is not None:
         marks.append(Mark(study.Omega, abs(study.gamma), study.operating.verdict == "unstable"))

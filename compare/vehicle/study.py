@@ -130,6 +130,11 @@ class Study:
         return tuple(sorted(found, key=lambda row: distance(row.band, self.Omega or 0.0)))
 
     @property
+    def of_itself(self) -> bool:
+        """Whether the range is the one that is taken where none is asked for."""
+        return (self.low, self.high) == _own_range(self.alone)
+
+    @property
     def steadily_lost(self) -> bool:
         """Whether the vehicle is unstable without pulsation."""
         return self.loss is not None and self.loss.margin(self.vehicle) <= 1.0
@@ -199,7 +204,7 @@ def study(
             f"thrust = {vehicle.thrust.mean:g}: nothing oscillates under it, so that no "
             "resonance is to be found"
         )
-    low, high = span or (0.0, 2.0 * float(frequencies[min(4, len(frequencies) - 1)]))
+    low, high = span or _own_range(alone)
 
     def near(resonance: Resonance, at: float) -> Near:
         return Near(lambda x: vehicle.equation(x, at, eta), resonance, alone)
@@ -271,6 +276,11 @@ def study(
         refused=tuple(refused),
         settling=settled,
     )
+
+
+def _own_range(alone: Steady) -> tuple[float, float]:
+    frequencies = alone.frequencies
+    return 0.0, 2.0 * float(frequencies[min(4, len(frequencies) - 1)])
 
 
 def _row(near: Callable[[float], Near], gamma: float) -> Row:
