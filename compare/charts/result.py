@@ -239,8 +239,12 @@ def _at(chart: Chart, values: Mapping[str, ArrayLike]) -> Points:
     return chart.scenario.reading.solve(P.T, error, Omega, eta)
 
 
-def directly(chart: Chart, points: Float) -> tuple[Float, Float]:
-    """P, (k, degree + 1), and its error at values of the axes (k, axes), not from a series."""
+def directly(chart: Chart, points: Float, route: str = "") -> tuple[Float, Float]:
+    """P, (k, degree + 1), and its error at values of the axes (k, axes), not from a series.
+
+    By the route that is asked for, or else by the chart's own; of both by floquet.
+    """
     named = dict(zip(chart.scenario.names, points.T, strict=True))
-    lines = nodes.solved(chart.scenario, named, "hill" if chart.route == "hill" else "floquet")
+    own = "hill" if chart.route == "hill" else "floquet"
+    lines = nodes.solved(chart.scenario, named, route or own)
     return lines[:, :-2], lines[:, -2]

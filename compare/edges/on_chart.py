@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from compare.charts.axis import Axis
 from compare.charts.result import Chart
 from compare.edges.interpolated import axes_of, on_surface
+from compare.edges.reach import may_reach
 from compare.edges.tongue import Tongue
 from compare.edges.tracer import TongueTracer, follow
 from hill.averaging import first_order
@@ -75,7 +76,8 @@ def tongues(
         for order in range(1, orders + 1)
     ]
     within = (x.low, x.high)
-    windows = [_windows(TongueTracer(own, resonance, within), at) for resonance in wanted]
+    tracers = [TongueTracer(own, resonance, within) for resonance in wanted]
+    windows = [_windows(tracer, at) if may_reach(tracer, at) else [] for tracer in tracers]
     seen = [window for each in windows for window in each]
     low, high = (min(a for a, _ in seen), max(b for _, b in seen)) if seen else within
     curves = on_surface(chart, max(low, x.low / FARTHEST), min(high, x.high * FARTHEST))

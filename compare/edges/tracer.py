@@ -56,6 +56,11 @@ POLE_MARGIN = 0.1
 TOWARDS_TIP = (0.1, 0.25, 0.45, 0.7)
 
 
+def rounding(error: float, eta: float) -> float:
+    """A T that is none: undamped, of two z that meet P's error makes its root."""
+    return 0.0 if eta > 0.0 else float(np.sqrt(error))
+
+
 @dataclass(frozen=True)
 class TongueTracer:
     """One resonance of a field, cut at any y.
@@ -76,13 +81,13 @@ class TongueTracer:
         """The resonance; nan where the frequencies are not real."""
         return self.resonance.Omega(self.field.frequencies(y))
 
-    def window(self, y: float) -> Pair | None:
+    def window(self, y: float, doublings: int = DOUBLINGS) -> Pair | None:
         """What the tracer may look at, doublings included; None where that is of no interest."""
         Omega, equation = self._at(y)
         if equation is None:
             return None
         undamped = half_width(self.resonance, equation, damped=False)
-        reach = 2.0**DOUBLINGS * (REACH * undamped + SHIFT * strength(equation) ** 2 * Omega)
+        reach = 2.0**doublings * (REACH * undamped + SHIFT * strength(equation) ** 2 * Omega)
         low, high = max(Omega - reach, MIN_SHARE * Omega), min(Omega + reach, Omega / MIN_SHARE)
         return (low, high) if low <= self.within[1] and high >= self.within[0] else None
 
@@ -142,11 +147,8 @@ class TongueTracer:
         def f(x: Float) -> Float:
             return reading.indicator(self.resonance.indicator, P(x), x, eta)
 
-        # undamped, of two z that meet P's error makes its root
-        rounding = 0.0 if eta > 0.0 else np.sqrt(error)
-
         def grows(x: Float) -> NDArray[np.bool_]:
-            return reading.growth(P(x), x, eta) > rounding
+            return reading.growth(P(x), x, eta) > rounding(error, eta)
 
         bottom, depth = deepest(f, lo, hi)
         pair = edges(f, lo, hi, (Omega + low, Omega + high), bottom, grows)
