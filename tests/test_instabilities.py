@@ -11,13 +11,16 @@ from compare import Chart, chart
 from compare.edges.curves import Curve, boundaries
 from compare.edges.instabilities import Instability, instabilities
 from compare.edges.interpolated import SECTIONS, on_surface
-from compare.edges.on_chart import distinct, tongues
+from compare.edges.on_chart import distinct, stations, tongues
+from compare.edges.reach import may_reach
 from compare.edges.tongue import RANGE
+from compare.edges.tracer import TongueTracer, follow
 from compare.edges.unnamed import unnamed
 from compare.stability.indicators import BESIDE_POLE, edge_function
 from floquet import monodromy
 from floquet.weak_form import galerkin
 from hill import SteppedBeam, UniformBeam, characteristic
+from hill.averaging import Resonance
 
 BEAM = UniformBeam(T0=20.0, K_theta=0.5, xi_G=0.5)
 
@@ -255,6 +258,21 @@ def test_a_tongue_centred_outside_the_range_is_followed() -> None:
     assert low < 0.385 < high
     for Omega, verdict in ((high - 1e-3, "unstable"), (high + 1e-3, "stable")):
         assert characteristic(BEAM.equation(Omega, 0.2)).verdict == verdict
+
+
+def test_a_resonance_beside_the_range_is_followed_only_where_it_may_be_seen() -> None:
+    """2 omega_(B) at .3825, which is .403 wide at most: .385 sees it, .42 does not."""
+    for low, seen in ((0.385, True), (0.42, False)):
+        axes = [("Omega", low, 0.5, 40), ("gamma", 0.0, 0.3, 30)]
+        c = chart(BEAM, axes, forcing={"eta": 0.02}, route="floquet")
+        tracer = TongueTracer(on_surface(c), Resonance(0, 0), (low, 0.5))
+        at = stations(c.axes[1])
+        assert may_reach(tracer, at) is seen
+        # its window reaches both
+        assert any(tracer.window(y) for y in at)
+        # what is followed all the same says so too
+        (own,) = follow(on_surface(c, 0.15, 1.0), tracer.resonance, at, Omega=(low, 0.5))
+        assert bool(np.any(own.upper >= low)) is seen
 
 
 def test_a_tongue_says_why_it_ends_at_a_pole() -> None:

@@ -47,7 +47,7 @@ def _seen(tracer: TongueTracer, y: float) -> bool:
         return False
     # no window goes farther
     first, last = MIN_SHARE * Omega, Omega / MIN_SHARE
-    if low <= Omega <= high or (first < low and last > high):
+    if low <= Omega <= high:
         return True
     if last <= low or first >= high:
         return False
@@ -75,6 +75,8 @@ def _seen(tracer: TongueTracer, y: float) -> bool:
     edges = np.flatnonzero((value[:-1] <= 0.0) & (value[1:] > 0.0))
     beyond = near[1] if Omega < low else near[0]
     start = int(np.argmax(np.abs(x - Omega) >= abs(beyond - Omega)))
+    if bool(np.all(grows[start:])) and (last > high if Omega < low else first < low):
+        return True  # the tongue may be wider than the range
     return any(
         _near(float(x[k]), Omega, low, high, near) or bool(np.all(grows[start : k + 1]))
         for k in edges

@@ -11,11 +11,12 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 from scipy.optimize import brentq
 
-from compare.stability.roots import companion_roots, log_R
+from compare.charts import chebyshev
+from compare.stability.roots import companion_roots, discriminant, growth_off_axis, real_range
+from compare.stability.roots import growth as log_R
 
 Complex = NDArray[np.complexfloating[Any]]
 Float = NDArray[np.floating[Any]]
@@ -56,10 +57,16 @@ class Interpolant:
     hi: float
     coefficients: Float
 
+    @property
+    def _degrees(self) -> Float:
+        return np.arange(len(self.coefficients), dtype=float)
+
     def __call__(self, s: Float) -> Float:
         """Coefficients of P at each s, shape (k, n + 1)."""
         t = (2.0 * np.atleast_1d(s) - self.lo - self.hi) / (self.hi - self.lo)
-        return np.asarray(chebyshev.chebval(t, self.coefficients).T)
+        # one product, where a recurrence takes as many steps as there are coefficients
+        angle = np.arccos(np.clip(t, -1.0, 1.0))
+        return np.asarray(np.cos(np.outer(angle, self._degrees)) @ self.coefficients)
 
 
 def interpolate(P: Function, lo: float, hi: float, tail: float = TAIL) -> Interpolant:
@@ -70,14 +77,17 @@ def interpolate(P: Function, lo: float, hi: float, tail: float = TAIL) -> Interp
     NotSmooth
         `DEGREES` do not suffice: the line is too long, or passes a pole of G.
     """
-    t, rows = np.empty(0), []
+    known: Float | None = None
     for degree in DEGREES:
-        every = np.cos(np.pi * np.arange(degree + 1) / degree)
-        added = every[1::2] if len(t) else every  # the others are of the last round
-        t = np.append(t, added)
-        rows.append(P(0.5 * (lo + hi + (hi - lo) * added)))
-        values = np.vstack(rows)
-        c = chebyshev.chebfit(t, values, degree)
+        every = chebyshev.lobatto(degree + 1)
+        added = every if known is None else every[1::2]  # the others are of the last round
+        found = P(0.5 * (lo + hi + (hi - lo) * added))
+        values = found
+        if known is not None:
+            values = np.empty((degree + 1, found.shape[1]))
+            values[::2], values[1::2] = known, found
+        known = values
+        c = chebyshev.coefficients(values, (0,))
         if np.abs(c[-2:]).max() <= tail * np.abs(c).max():
             return Interpolant(lo, hi, c)
     raise NotSmooth(f"from {lo:g} to {hi:g}: P is not smooth enough to be interpolated")
@@ -94,7 +104,7 @@ def interpolate_in_Omega(P: Function, lo: float, hi: float, tail: float = TAIL) 
 
 def growth(P: Float, Omega: Float | float, eta: float = 0.0) -> Float:
     """T of (7.1.1) for many P at once, shape (k, n + 1)."""
-    return np.asarray(Omega / np.pi * log_R(companion_roots(P)).max(axis=-1) - eta)
+    return np.asarray(Omega / np.pi * log_R(P.T) - eta)
 
 
 def indicator(kind: str, P: Float, Omega: Float, eta: float = 0.0) -> Float:
@@ -113,16 +123,10 @@ def indicator(kind: str, P: Float, Omega: Float, eta: float = 0.0) -> Float:
     Omega : (k,) ndarray
     eta : float, optional
     """
-    z = companion_roots(P)
-    if kind == "+1":
-        return np.asarray(np.cosh(np.pi * eta / Omega) - z.real.max(axis=1))
-    if kind == "-1":
-        return np.asarray(np.cosh(np.pi * eta / Omega) + z.real.min(axis=1))
-    if eta > 0.0:
-        off_axis = np.where(z.imag != 0.0, z, 0.0)
-        return np.asarray(eta - Omega / np.pi * log_R(off_axis).max(axis=1))
-    j, k = np.triu_indices(z.shape[1], 1)
-    return np.asarray(np.prod((z[:, j] - z[:, k]) ** 2, axis=1).real)
+    if kind == "pair":
+        return eta - Omega / np.pi * growth_off_axis(P) if eta > 0.0 else discriminant(P)
+    least, largest = real_range(P)
+    return np.asarray(np.cosh(np.pi * eta / Omega) + (least if kind == "-1" else -largest))
 
 
 def edge_function(kind: str, P: Float, Omega: Float, eta: float | Float = 0.0) -> Float:
@@ -177,10 +181,16 @@ def zero(
 
 def crossings(f: Function, x: Float) -> tuple[list[float], list[float]]:
     """Where f falls below zero, and where it rises above it, between the points of a grid."""
+    falls, rises = _changes(f, x)
+    return [zero(f, x[i], x[i + 1]) for i in falls], [zero(f, x[i], x[i + 1]) for i in rises]
+
+
+def _changes(f: Function, x: Float) -> tuple[list[int], list[int]]:
+    """Points of a grid after which f falls below zero, and after which it rises above it."""
     inside = f(x) < 0.0
     falls = np.flatnonzero(~inside[:-1] & inside[1:])
     rises = np.flatnonzero(inside[:-1] & ~inside[1:])
-    return [zero(f, x[i], x[i + 1]) for i in falls], [zero(f, x[i], x[i + 1]) for i in rises]
+    return falls.tolist(), rises.tolist()
 
 
 def edges(
@@ -199,9 +209,12 @@ def edges(
     unnoticed, unless they enclose `bottom`.
     """
     x = np.unique(np.append(np.linspace(lo, hi, GRID), bottom))
-    falls, rises = crossings(f, x)
-    stable = x[~grows(x)] if grows is not None else np.empty(0)
-    pairs = [
-        (a, b) for a in falls for b in rises if a < b and not np.any((stable > a) & (stable < b))
-    ]
+    falls, rises = _changes(f, x)
+    if not (falls and rises):
+        return None
+    # how many points to the left are stable: none may be between a fall and a rise
+    stable = np.cumsum(~grows(x)) if grows is not None else np.zeros(len(x), int)
+    found = [(i, j) for i in falls for j in rises if i < j and stable[j] == stable[i]]
+    at = {k: zero(f, x[k], x[k + 1]) for pair in found for k in pair}
+    pairs = [(at[i], at[j]) for i, j in found]
     return min(pairs, key=lambda p: abs(p[0] - guess[0]) + abs(p[1] - guess[1]), default=None)

@@ -58,6 +58,61 @@ def companion_roots(polynomials: Float) -> Complex:
     return np.asarray(np.linalg.eigvals(companion), complex)
 
 
+def lone_and_pair(polynomials: Float) -> tuple[Float, Float, Float] | None:
+    """Roots of monic polynomials of the second or third degree, (k, n + 1), in closed form.
+
+    Returns
+    -------
+    (k,) ndarray, three times, or None
+        A real root, nan in the second degree; x and s of the other two, x +- sqrt(s). None of
+        another degree.
+    """
+    p = polynomials.T
+    if len(p) == 3:
+        lone, b, c = np.full(p.shape[1], np.nan), p[1], p[2]
+    elif len(p) == 4:
+        lone = most_isolated_root(p[1], p[2], p[3])
+        b = p[1] + lone
+        c = p[2] + lone * b
+    else:
+        return None
+    x = -0.5 * b
+    return lone, x, x * x - c
+
+
+def real_range(polynomials: Float) -> tuple[Float, Float]:
+    """The least and the largest real part of the roots of monic polynomials, (k, n + 1)."""
+    closed = lone_and_pair(polynomials)
+    if closed is None:
+        real = companion_roots(polynomials).real
+        return real.min(axis=1), real.max(axis=1)
+    lone, x, square = closed
+    apart = np.sqrt(np.maximum(square, 0.0))
+    return np.fmin(x - apart, lone), np.fmax(x + apart, lone)
+
+
+def growth_off_axis(polynomials: Float) -> Float:
+    """Largest ln R of the roots that are not real, 0 where all are, (k, n + 1) to (k,)."""
+    closed = lone_and_pair(polynomials)
+    if closed is None:
+        z = companion_roots(polynomials)
+        return np.asarray(log_R(np.where(z.imag != 0.0, z, 0.0)).max(axis=1))
+    _, x, square = closed
+    return np.where(square < 0.0, _conjugate(x, np.sqrt(np.maximum(-square, 0.0))), 0.0)
+
+
+def discriminant(polynomials: Float) -> Float:
+    """The product of (z_i - z_j)^2 over pairs of roots of monic polynomials, (k, n + 1)."""
+    closed = lone_and_pair(polynomials)
+    if closed is None:
+        z = companion_roots(polynomials)
+        j, k = np.triu_indices(z.shape[1], 1)
+        return np.asarray(np.prod((z[:, j] - z[:, k]) ** 2, axis=1).real)
+    lone, x, square = closed
+    others = 1.0 if polynomials.shape[1] == 3 else ((lone - x) ** 2 - square) ** 2
+    return np.asarray(4.0 * square * others)
+
+
 def log_R(z: Complex) -> Float:
     """Ln |z + (z^2 - 1)^(1/2)|, the larger, Eq. (7.1.2)."""
     return _conjugate(z.real, np.abs(z.imag))
