@@ -52,7 +52,7 @@ def _seen(tracer: TongueTracer, y: float) -> bool:
     if last <= low or first >= high:
         return False
     lo, hi = max(low, first), min(high, last)
-    near = tracer.window(y, doublings=0) or (low, high)
+    near = tracer.window(y, doublings=0) or (Omega, Omega)
     equation = tracer.field.equation(Omega, y)
     reading, error = tracer.field.reading, tracer.field.error
     eta = damping(tracer.resonance, equation)
