@@ -38,8 +38,8 @@ MIN_GROUP = 32
 # data's rounding moves; ulps of P. Measured (`benchmarks.honesty`, 7,038 systems of fourteen
 # classes): the true error was .24 of the bound at most, .01 in the median; with 8, 12 and 16
 # coordinates .06 of it at most. With the root alone one of 9,852 systems was off by 1.6 bounds, and
-# 600 next to it, which grow 18 times, by 4.2 at most, .8 now. In proportion to the radians, and with
-# sums for the roots of sums of squares, the bound was 14 times as wide for the same worst case.
+# 600 next to it, which grow 18 times, by 4.2 at most, .8 now. In proportion to the radians, and
+# with sums for roots of sums of squares, the bound was 14 times as wide for the same worst case.
 ULPS, SWELL, GROWN, DATA_ULPS, P_ULPS = 8.0, 4.0, 1.2, 3.0, 4.0
 
 # Relative bound above which `monodromy` is asked, whose two runs know better: thirty times the
