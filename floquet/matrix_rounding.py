@@ -5,7 +5,7 @@ import numpy as np
 from floquet.arrays import Complex, Float
 
 # Rounding of the matrices, over the largest element: against ball arithmetic 23 ulps at most over
-# 3,000 beams of up to 8 modes, but for what follows.
+# 1,000 beams of up to 8 modes, but for what follows.
 MATRIX_ERROR = 32.0 * 2.0**-52
 
 # What the division by a stepped beam's mass may make of an ulp before its matrices are further off,

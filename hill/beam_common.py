@@ -22,7 +22,7 @@ COMMON = (
 )
 
 # Rounding of the closed forms, over the largest element: against ball arithmetic they were off by
-# half of it at most over 3,000 beams of up to 8 modes. Near a longitudinal resonance the force adds
+# half of it at most over 1,000 beams of up to 8 modes. Near a longitudinal resonance the force adds
 # its own.
 MATRIX_ERROR = 32.0 * 2.0**-52
 
