@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from compare.vehicle.near import Band, Near
+from compare.vehicle.near import NARROWER, Band, Near
 
 # Secant steps in the power of gamma in which a band's excess is nearly linear.
 MAX_STEPS = 8
@@ -36,7 +36,7 @@ def critical_gamma(
     # the excess is nearly linear in u = gamma^(2 k)
     u, value, middle = abs(gamma) ** power, band.excess, band.middle
     reach = sum(near(gamma).rates) / band.resonance.order
-    guess = start
+    guess, half = start, 1.0
     for _ in range(MAX_STEPS):
         slope = (value - before) / (u - before_u)
         if guess:
@@ -54,5 +54,6 @@ def critical_gamma(
         at = near(float(u ** (1.0 / power)))
         # the middle moves like gamma^2; the excess falls by a b over a width of a + b
         moved = (middle - at.Omega) * (u / before_u) ** (2.0 / power)
-        value, middle = at.most(at.Omega + moved, max(reach, 1e-4 * at.Omega))
+        value, middle = at.most(at.Omega + moved, half * max(reach, 1e-4 * at.Omega))
+        half = NARROWER
     return float(u ** (1.0 / power))

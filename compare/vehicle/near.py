@@ -36,6 +36,11 @@ MAX_SHIFT = 0.3
 # An edge that is corrected by more, over half the window, is solved for without polynomials.
 MAX_CORRECTION = 0.02
 
+# Each parabola's half over the last one's, and what it may still move the top by, over the excess
+# at rest, which is what a pulsation has to overcome: what is left of a cubic term is smaller by the
+# cube of the first.
+NARROWER, SETTLED = 0.3, 1e-5
+
 # Share of Omega to which an edge is solved for without them.
 SOLVED = 1e-10
 
@@ -161,14 +166,17 @@ class Near:
     def most(self, centre: float, half: float) -> tuple[float, float]:
         """The largest excess, of a band about so wide whose middle is near there, and its Omega.
 
-        By parabolas through three values, the second about the first one's top.
+        By parabolas through three values, each about the last one's top and narrower, until that
+        has settled: where one of the two decays much faster the excess is no parabola of the width.
 
         Raises
         ------
         Refused
             As `band`.
         """
-        for reach in (half, 0.3 * half):
+        top = np.inf
+        for narrower in range(MAX_MOVES):
+            reach = half * NARROWER**narrower
             at = centre + reach * np.array([-1.0, 0.0, 1.0])
             low, mid, high = (excess(self.at(float(x)), float(x)) for x in at)
             bend = low - 2.0 * mid + high
@@ -178,7 +186,10 @@ class Near:
             if abs(move) > 3.0:
                 return self._most_of_window()
             centre = float(at[1] + reach * move)
-        return mid - 0.125 * (high - low) ** 2 / bend, centre
+            before, top = top, mid - 0.125 * (high - low) ** 2 / bend
+            if abs(top - before) <= SETTLED * max(abs(self.excess_at_rest), abs(top)):
+                break
+        return top, centre
 
     def _most_of_window(self) -> tuple[float, float]:
         fits, _ = self._top()
