@@ -236,3 +236,13 @@ def test_edges_choose_the_pair_nearest_to_the_guess() -> None:
     # narrower than the grid, and found by its bottom
     narrow = edges(lambda x: (x - 0.12345) ** 2 - 1e-10, 0.0, 1.0, (0.0, 1.0), 0.12345)
     assert narrow == pytest.approx((0.12344, 0.12346), rel=1e-9)
+
+
+def test_a_sign_that_rounding_makes_on_a_grid_is_a_zero_there() -> None:
+    """Alone the function has another sign at the point of the grid where it is 0 to rounding."""
+
+    def f(x: Float) -> Float:
+        among_others = -1e-17 if len(x) > 1 else 1e-17
+        return np.where(x == 0.5, among_others, np.abs(x - 0.5))
+
+    assert crossings(f, np.array([0.0, 0.25, 0.5, 0.75, 1.0])) == ([0.5], [0.5])

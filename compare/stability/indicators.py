@@ -182,7 +182,19 @@ def zero(
 def crossings(f: Function, x: Float) -> tuple[list[float], list[float]]:
     """Where f falls below zero, and where it rises above it, between the points of a grid."""
     falls, rises = _changes(f, x)
-    return [zero(f, x[i], x[i + 1]) for i in falls], [zero(f, x[i], x[i + 1]) for i in rises]
+    return [_between(f, x, i) for i in falls], [_between(f, x, i) for i in rises]
+
+
+def _between(f: Function, x: Float, i: int) -> float:
+    """The sign change between two points of a grid.
+
+    Where f is 0 to rounding at one of them its sign may be another alone than on the grid: it is
+    there.
+    """
+    first, last = (float(f(x[k : k + 1])[0]) for k in (i, i + 1))
+    if (first < 0.0) == (last < 0.0):
+        return float(x[i] if abs(first) < abs(last) else x[i + 1])
+    return zero(f, x[i], x[i + 1])
 
 
 def _changes(f: Function, x: Float) -> tuple[list[int], list[int]]:
@@ -215,6 +227,6 @@ def edges(
     # how many points to the left are stable: none may be between a fall and a rise
     stable = np.cumsum(~grows(x)) if grows is not None else np.zeros(len(x), int)
     found = [(i, j) for i in falls for j in rises if i < j and stable[j] == stable[i]]
-    at = {k: zero(f, x[k], x[k + 1]) for pair in found for k in pair}
+    at = {k: _between(f, x, k) for pair in found for k in pair}
     pairs = [(at[i], at[j]) for i, j in found]
     return min(pairs, key=lambda p: abs(p[0] - guess[0]) + abs(p[1] - guess[1]), default=None)
