@@ -17,14 +17,16 @@ def subtraction_error(e: HillEquation, scale: Float) -> tuple[Float, float]:
     """What the rounding of F - eta^2/4 adds to A, and to P over its size, to first order.
 
     By Duhamel's formula a change dF moves A by the integral over the period of B dF A, and `scale`
-    has the sizes of A and B. That counts every element as if it stood alone; by the modes of F it
-    is far less, where F has modes.
+    has the sizes of A and B at its end. A slow B has been larger on the way: it is the integral of
+    D, and no larger than that over half the period. That counts every element as if it stood alone;
+    by the modes of F it is far less, where F has modes.
     """
     n, eta = e.n, e.damping
     quarter, exact = 0.25 * eta**2, Fraction(eta) ** 2 / 4
     off = [abs(Fraction(f) - exact - Fraction(f - quarter)) for f in np.diag(e.F)]
     rounded = np.array([float(x) for x in off])
-    alone = e.period * scale[:n, n:] @ (rounded[:, None] * scale[:n, :n])
+    B = np.maximum(scale[:n, n:], 0.5 * e.period * scale[n:, n:])
+    alone = e.period * B @ (rounded[:, None] * scale[:n, :n])
     share = moved_by_diagonal(e.F, rounded, quarter, e.Omega)
     return alone, MODES_SAFETY * share
 
