@@ -91,7 +91,9 @@ def characteristic(
     if not (np.all(np.isfinite(converged)) and np.isfinite(error)):
         raise OverflowError(finite.OVERFLOW)
     if truncation == "converged":
-        return of_z(equation, converged, error, data_error, levels, "converged", d)
+        # of an F far from normal with few rows the roots are known by P alone
+        at_roots = d if system.n >= MANY else None
+        return of_z(equation, converged, error, data_error, levels, "converged", at_roots)
     if truncation == "report":
         kept = residues.report_rule(equation)
     elif isinstance(truncation, str):
