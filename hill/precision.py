@@ -6,6 +6,8 @@ than a million times the true error, an ulp being an error that nobody is spared
 says what its numbers are known to.
 """
 
+from collections.abc import Mapping
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -61,3 +63,25 @@ def remark(
         share = error / float(np.max(np.abs(np.asarray(polynomial, float))))
         said.append(f"P is known to +- {share:.1e} times its largest coefficient only")
     return "; ".join(said)
+
+
+def remark_of_slopes(
+    T: float, Omega: float, known: Mapping[str, tuple[ArrayLike, ArrayLike, ArrayLike]]
+) -> str:
+    """Which derivatives of T are poorly known, in a sentence; empty where none is.
+
+    One is where its error is above nine digits of the largest slope of its parameter, and moves T
+    by more than nine digits if the whole parameter goes, as `poor_T` counts them.
+
+    Parameters
+    ----------
+    T, Omega
+    known : mapping of str to (slope, error, value)
+        By parameter: arrays of one shape where it is a matrix.
+    """
+    poor = []
+    for name, (slope, error, value) in known.items():
+        slopes, errors, values = (np.max(np.abs(x), initial=0.0) for x in (slope, error, value))
+        if not errors <= POOR * slopes and poor_T(T, errors * values, Omega):
+            poor.append(f"dT/d{name} to +- {errors:.1e}")
+    return f"known only: {', '.join(poor)}" if poor else ""

@@ -18,7 +18,7 @@ ROUTES = ("floquet",)
 NAMES = tuple(CLASSES)
 NUMBERS = ("dT", "dz")
 
-# A derivative stands beside its error, and no other word is said of it: above this share of the
+# The remark is on derivatives of T; one of z stands beside its error, and above this share of the
 # number the error itself is the word.
 POOR = 1e-6
 
@@ -100,7 +100,7 @@ def judged(
     else:
         size = float(along(_moduli(answer.dT), sizes))
         error = shrink * (dT_error + 4.0 * EPS * size)  # the sum over the direction is rounded too
-        told = dT_error > POOR * size
+        told = bool(answer.remark)
         measured["dT"] = one_number("dT", dT, known.dT, error, size, told, wrong)
     each = []
     for k, z in enumerate(answer.z):

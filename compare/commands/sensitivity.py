@@ -94,6 +94,9 @@ def show(wanted: Described, found: SystemSensitivities, console: Console) -> Non
         known = f"{error:.0e}" if error else "exact"
         table.add_row(name, f"{value:.7g}", _signed(slope, error), known, share)
     console.print(table)
+    if found.remark:
+        console.print()
+        say(console, f"{found.remark[0].upper()}{found.remark[1:]}.", "yellow")
     if not any(slope for name, slope in found.dT.items() if name != "eta"):
         console.print()
         say(console, "Stable, and not on a boundary: T = -eta, and nothing else moves it.")
@@ -108,6 +111,7 @@ def content(wanted: Described, found: SystemSensitivities) -> dict[str, Any]:
     """What JSON holds; complex numbers are [re, im]."""
     return provenance(_about(wanted, found)) | {
         "T": found.T,
+        "remark": found.remark,
         "z": _pairs(found.z),
         "parameters": [
             {

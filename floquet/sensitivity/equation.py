@@ -30,6 +30,7 @@ from floquet.sensitivity.eigenvalues import (
     leader,
 )
 from hill import HillEquation
+from hill.precision import remark_of_slopes
 
 # The run and the one it is checked by, as in `floquet.monodromy`: other steps.
 RUN, CHECK = Taylor(), Taylor(order=29)
@@ -73,6 +74,8 @@ class Sensitivities:
         Of T, real; and bounds.
     dz, dz_error : Derivatives
         Of each z, complex, z along the first axis; and bounds on the moduli of the errors.
+    remark : str
+        Which derivatives of T are known to less than nine digits; empty where none is.
     """
 
     T: float
@@ -81,6 +84,7 @@ class Sensitivities:
     dT_error: Derivatives
     dz: Derivatives
     dz_error: Derivatives
+    remark: str
 
 
 def sensitivities(equation: HillEquation) -> Sensitivities:
@@ -129,13 +133,19 @@ def sensitivities(equation: HillEquation) -> Sensitivities:
     slope, error = _of_T(equation, growth, lead, found, wanted)
     if matrix:
         found = EigenvalueGradients(found.slope[:0], found.error[:0])
+    dT, dT_error = _shaped(equation, slope), _shaped(equation, error)
+    known = {
+        name: (vars(dT)[name], vars(dT_error)[name], vars(equation)[name])
+        for name in ("Omega", "gamma", "eta", "F", "G", "H")
+    }
     return Sensitivities(
         T=m.T,
         z=m.z,
-        dT=_shaped(equation, slope),
-        dT_error=_shaped(equation, error),
+        dT=dT,
+        dT_error=dT_error,
         dz=_shaped(equation, found.slope),
         dz_error=_shaped(equation, found.error),
+        remark=remark_of_slopes(m.T, equation.Omega, known),
     )
 
 

@@ -26,6 +26,7 @@ from floquet.integrate.parts_taylor import PartsTaylor
 from floquet.integrate.steps import Steps, step_function
 from floquet.result import Monodromy
 from hill import Fourier, PeriodicEquation
+from hill.precision import remark_of_slopes
 
 # Steps side by side in one reverse sweep.
 CHUNK = 512
@@ -66,12 +67,15 @@ class GeneralSensitivities:
     dT, dT_error : GeneralDerivatives
         The errors are estimates: the difference of two runs with other steps, times 8, and rounding
         by a model, as for the special equation.
+    remark : str
+        Which derivatives are known to less than nine digits; empty where none is.
     """
 
     T: float
     exponent: complex
     dT: GeneralDerivatives
     dT_error: GeneralDerivatives
+    remark: str
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,7 +113,20 @@ def general_sensitivities(equation: PeriodicEquation) -> GeneralSensitivities:
         exponent=complex(found.exponents[0]),
         dT=_shaped(equation, slope),
         dT_error=_shaped(equation, error),
+        remark=remark_of_slopes(found.T, equation.Omega, _known(equation, slope, error)),
     )
+
+
+def _known(equation: PeriodicEquation, slope: list[Any], error: list[Any]) -> dict[str, Any]:
+    """Slope, error and value by name, in the order of `_of_T`."""
+    names = ("A",) if equation.A is not None else ("M", "C", "K")
+    given = [vars(equation)[name] for name in names]
+    values = [
+        np.stack([x.mean, *x.cos.values(), *x.sin.values()]) if isinstance(x, Fourier) else x
+        for x in given
+    ]
+    found = zip(("Omega", *names), slope, error, (equation.Omega, *values), strict=True)
+    return {name: parts for name, *parts in found}
 
 
 def _refuse_ties(found: Monodromy, Omega: float) -> None:

@@ -16,6 +16,7 @@ from floquet.sensitivity.equation import Derivatives, sensitivities
 from floquet.sensitivity.numbers import FORCING, Moved, moved_by
 from floquet.witness import matrices_of
 from hill import HillEquation, SteppedBeam, UniformBeam, parameter_values
+from hill.precision import remark_of_slopes
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,6 +38,8 @@ class SystemSensitivities:
     dz_error : dict of str to (n,) float ndarray
     shared_matrices : bool
         Whether the matrices are the system's own, because the witness has none.
+    remark : str
+        Which derivatives of T are known to less than nine digits; empty where none is.
     """
 
     values: dict[str, float]
@@ -47,6 +50,7 @@ class SystemSensitivities:
     dz: dict[str, Complex]
     dz_error: dict[str, Float]
     shared_matrices: bool
+    remark: str
 
 
 BeamSensitivities = SystemSensitivities
@@ -94,6 +98,7 @@ def system_sensitivities(
         moved = moved_by(system, name, **forcing, value=value)
         T[name] = _chain(name, s.dT, s.dT_error, moved)
         z[name] = _chain(name, s.dz, s.dz_error, moved)
+    known = {name: (*T[name], value) for name, value in values.items()}
     return SystemSensitivities(
         values=values,
         T=s.T,
@@ -103,6 +108,7 @@ def system_sensitivities(
         dz={name: found for name, (found, _) in z.items()},
         dz_error={name: error for name, (_, error) in z.items()},
         shared_matrices=shared,
+        remark=remark_of_slopes(s.T, Omega, known),
     )
 
 
