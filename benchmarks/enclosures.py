@@ -28,7 +28,7 @@ NAMES = tuple(name for name in CLASSES if name != "damping matrices")
 BITS = 60
 
 # Rows of a group, coordinates times harmonics: with more a system takes a minute.
-MOST_ROWS = 24
+MAX_ROWS = 24
 
 
 @dataclass(frozen=True)
@@ -78,7 +78,7 @@ def systems(name: str, count: int, seed: int) -> list[HillEquation]:
     while len(found) < count:
         for e in members(name, seed, 1):
             reach = 1 if not e.H else e.ratio * len(e.H)
-            if e.n * reach <= MOST_ROWS and np.ndim(e.eta) == 0:
+            if e.n * reach <= MAX_ROWS and np.ndim(e.eta) == 0:
                 found.append(e)
         seed += 1
     return found[:count]

@@ -12,7 +12,7 @@ from hill.toml import one_of, only, table, unreadable
 
 Float = NDArray[np.float64]
 
-MOST_ROWS = 5000
+MAX_ROWS = 5000
 """Of a matrix: a full one takes 200 MB, and no route ends with it."""
 
 
@@ -106,9 +106,9 @@ def _dense(found: Any, path: Path) -> Any:
 
 def _check_size(shape: Sequence[int], path: Path) -> None:
     """Refuse before it is written out what would not fit."""
-    if max(shape) > MOST_ROWS:
+    if max(shape) > MAX_ROWS:
         size = " x ".join(f"{count:,}" for count in shape)
-        raise ValueError(f"{path.name}: is {size}, must have at most {MOST_ROWS:,} rows")
+        raise ValueError(f"{path.name}: is {size}, must have at most {MAX_ROWS:,} rows")
 
 
 def periodic(name: str, value: Any, folder: Path) -> Float | Fourier:

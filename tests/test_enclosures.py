@@ -240,4 +240,4 @@ def test_without_the_extra_one_line_says_how(package: Any, monkeypatch: pytest.M
 def test_what_a_value_takes_is_bounded() -> None:
     with pytest.raises(tail.TooWide, match="harmonics"):
         hill.enclose(HillEquation([[1e12]], [[1e12]], 1.0, 1.0))
-    assert folded.MOST_BITS < 10_000
+    assert folded.MAX_BITS < 10_000

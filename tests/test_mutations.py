@@ -480,7 +480,7 @@ def test_liouville_notices_what_is_no_polynomial(monkeypatch: Patch) -> None:
 @pytest.mark.parametrize(
     ("name", "place", "value"),
     [
-        ("T1-01", "MOST_HARMONICS", 13),
+        ("T1-01", "MAX_HARMONICS", 13),
         ("T1-20", "_fjk", lambda j, k, R, B: 1.0001 * right_fjk(j, k, R, B)),
     ],
 )

@@ -11,7 +11,7 @@ from hill.system import FORCING
 from hill.vehicle.file import KEYS, SECTION
 from hill.vehicle.stations import COLUMNS
 from hill.vehicle.units import KINDS, SETS
-from hill.vehicle.vehicle import MOST_MODES
+from hill.vehicle.vehicle import MAX_MODES
 
 ROOT = Path(__file__).parent.parent
 PAGE = (ROOT / "docs" / "vehicles.md").read_text(encoding="utf-8")
@@ -61,7 +61,7 @@ def test_the_reader_knows_those_keys_alone(table: str, keys: set[str], tmp_path:
 def test_units_columns_and_limits() -> None:
     assert all(f'"{name}"' in PAGE for name in SETS)
     assert all(f"`{name}`" in PAGE for name in (*KINDS, *COLUMNS))
-    assert f"{MOST_MODES} at most" in PAGE
+    assert f"{MAX_MODES} at most" in PAGE
 
 
 @pytest.mark.parametrize("place", re.findall(r"`((?:hill|floquet|compare)/[\w/]+\.py)`", PAGE))

@@ -11,7 +11,7 @@ from hill import Fourier, PeriodicEquation
 
 Rng = np.random.Generator
 
-MOST_HARMONICS = 4
+MAX_HARMONICS = 4
 
 ALL = "all at once"
 """Everything in any combination: fast motion, units of all sizes, damping of all strengths."""
@@ -51,7 +51,7 @@ def _second_order(
     mass: bool = False,
 ) -> PeriodicEquation:
     n = int(rng.integers(1, 7))
-    harmonics = int(rng.integers(1, MOST_HARMONICS + 1)) if highest is None else highest
+    harmonics = int(rng.integers(1, MAX_HARMONICS + 1)) if highest is None else highest
     Omega = float(10.0 ** rng.uniform(-0.4, 0.6))
     gyroscopic = _some(rng, n, turning)
     drag = np.diag(damping * rng.uniform(0.0, 1.0, n)) + _some(rng, n, 0.1 * damping)
@@ -69,7 +69,7 @@ def _second_order(
 
 def _first_order(rng: Rng, *, damping: float) -> PeriodicEquation:
     m = int(rng.integers(1, 13))
-    highest = int(rng.integers(1, MOST_HARMONICS + 1))
+    highest = int(rng.integers(1, MAX_HARMONICS + 1))
     swing = _some(rng, m, 1.5)
     mean = swing - swing.T + _some(rng, m, 0.1) - np.diag(damping * rng.uniform(0.0, 1.0, m))
     A = _waves(rng, m, mean, float(rng.choice([0.05, 0.2, 0.6])), highest, "cos sin")

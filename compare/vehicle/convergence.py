@@ -13,7 +13,7 @@ from hill.averaging import Resonance
 from hill.errors import Refused
 from hill.oscillations.steady import steady
 from hill.vehicle.convergence import extrapolated
-from hill.vehicle.vehicle import MOST_MODES
+from hill.vehicle.vehicle import MAX_MODES
 
 STEP = 2
 """Modes that are added at a time: the odd and the even ones of a like vehicle take turns."""
@@ -83,7 +83,7 @@ def settling(
     """
     if vehicle.damping.matrix is not None:
         return ()
-    most = min(vehicle.modes + STEP * more, MOST_MODES)
+    most = min(vehicle.modes + STEP * more, MAX_MODES)
     numbers = tuple(range(vehicle.modes, most + 1, STEP))
     found: dict[tuple[Resonance | None, str], list[float | None]] = {}
 

@@ -17,7 +17,7 @@ from hill.system import varied
 # Share of a number by which it is changed. T comes to 1e-11, so that the slope has five digits.
 STEP = 1e-5
 
-MOST = 3
+EFFECTS_TOLD = 3
 """Effects that are told of a band."""
 
 # Two slopes by the same difference are the same within this share of the largest effect of the
@@ -81,7 +81,7 @@ def effects(
             except Refused:
                 continue
             own.append(Effect(name, value, (moved - band.T) / (changed - value)))
-    return [tuple(sorted(own, key=lambda e: -abs(e.relative))[:MOST]) for own in found]
+    return [tuple(sorted(own, key=lambda e: -abs(e.relative))[:EFFECTS_TOLD]) for own in found]
 
 
 def _changed(value: float, high: float) -> float:

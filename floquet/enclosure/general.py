@@ -24,10 +24,10 @@ from floquet.enclosure.series import TooWide
 REACH = 3.0
 """Length of a step times the largest norm of A on it."""
 
-MOST_STEPS = 4000
+MAX_STEPS = 4000
 
 # exp and cosh of it are floats.
-MOST_EXPONENT = 700.0
+MAX_EXPONENT = 700.0
 
 # Of the bits in the work what a step leaves out takes this share; rounding takes the rest.
 LEFT_OUT = 0.75
@@ -62,11 +62,11 @@ def monodromy(equation: Any, bits: int) -> Any:
 
     def largest(R: float) -> float:
         """Of |A| on a disc of radius R about a real point."""
-        swell = [cosh(min(k * R, MOST_EXPONENT)) for k, _ in norms]
+        swell = [cosh(min(k * R, MAX_EXPONENT)) for k, _ in norms]
         return norm(mean) + sum(c * x for c, (_, x) in zip(swell, norms, strict=True))
 
     steps = ceil(2.0 * pi * largest(0.0) / REACH) + 2 * highest
-    if steps > MOST_STEPS:
+    if steps > MAX_STEPS:
         raise TooWide(f"takes {steps} Taylor steps")
     order, left = _order(largest, 2.0 * pi / steps * 1.0001, bits)
     h = 2 * arb.pi() / steps
@@ -145,7 +145,7 @@ def _order(largest: Callable[[float], float], h: float, bits: int) -> tuple[int,
             for R, g in zip(radii, growth, strict=True)
         ]
         if min(logs) < -bits * log(2.0):
-            return order, 1.001 * exp(max(min(logs), -MOST_EXPONENT))
+            return order, 1.001 * exp(max(min(logs), -MAX_EXPONENT))
         order += 4
     raise TooWide("a Taylor step takes more than 2000 terms")
 

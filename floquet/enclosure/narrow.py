@@ -13,7 +13,7 @@ from floquet.enclosure.series import Singular, TooWide
 BITS = 256
 """To start with; `narrowed` doubles them until the balls are narrow enough."""
 
-MOST_BITS = 1 << 13
+MAX_BITS = 1 << 13
 
 NARROW = 140
 """Bits to which P's balls are known, of the largest coefficient: 2**-140 is 7e-43."""
@@ -25,10 +25,10 @@ def narrowed(compute: Callable[[], list[Any]], narrow: int, refine: int = 1) -> 
     Raises
     ------
     TooWide
-        `MOST_BITS` do not.
+        `MAX_BITS` do not.
     """
     bits = max(BITS, 2 * narrow) * refine
-    while bits <= MOST_BITS:
+    while bits <= MAX_BITS:
         with ctx.workprec(bits):
             try:
                 found = compute()
@@ -40,7 +40,7 @@ def narrowed(compute: Callable[[], list[Any]], narrow: int, refine: int = 1) -> 
                 if widest < size * arb(2) ** -narrow or not size > 0:
                     return found
         bits *= 2
-    raise TooWide(f"not known to {narrow} bits with {MOST_BITS} in the work")
+    raise TooWide(f"not known to {narrow} bits with {MAX_BITS} in the work")
 
 
 def square(given: Problem, refine: int = 1) -> Any:

@@ -14,7 +14,7 @@ from flint import arb, arb_mat, ctx
 from floquet.enclosure.balls import Problem, exact, identity, norm
 
 # A system that takes more terms than this is none that a float can hold.
-MOST_TERMS = 20000
+MAX_TERMS = 20000
 
 
 class TooWide(ValueError):
@@ -97,8 +97,8 @@ def _series(W: list[Any], norms: list[float], n: int, odd: int) -> tuple[Any, An
             tail = 8.0 * depth * (k + 4 * depth + 2) * m
             if tail < 2.0 ** -min(ctx.prec, 1000) or not np.isfinite(m):
                 break
-        if k > MOST_TERMS:
-            raise TooWide(f"the series takes more than {MOST_TERMS} terms")
+        if k > MAX_TERMS:
+            raise TooWide(f"the series takes more than {MAX_TERMS} terms")
     ball = arb(0, tail)
     unsure = arb_mat(n, n, [ball] * (n * n))
     return total + unsure, slope + unsure

@@ -24,10 +24,10 @@ from floquet.arrays import frozen
 from floquet.enclosure.balls import Problem, identity, norm
 from floquet.enclosure.series import TooWide
 
-MOST_STEPS = 20000
+MAX_STEPS = 20000
 
 # exp and cosh of it are floats; a disc on which more is needed is not chosen.
-MOST_EXPONENT = 300.0
+MAX_EXPONENT = 300.0
 
 # Of the bits in the work what is left out of a step takes this share; rounding takes the rest.
 LEFT_OUT = 0.75
@@ -59,7 +59,7 @@ def monodromy(problem: Problem, refine: int = 1) -> Any:
     Raises
     ------
     TooWide
-        It takes more than `MOST_STEPS`.
+        It takes more than `MAX_STEPS`.
     """
     n, plan = problem.n, _plan(problem, refine)
     h = 2 * arb.pi() / plan.steps
@@ -82,7 +82,7 @@ def _plan(problem: Problem, refine: int) -> Plan:
     wanted = LEFT_OUT * ctx.prec * log(2.0)
     best, least = None, float("inf")
     for R in map(float, RADII):
-        if R * max(p for p, _ in pulses) > MOST_EXPONENT:
+        if R * max(p for p, _ in pulses) > MAX_EXPONENT:
             break
         swell = [cosh(p * R) for p, _ in pulses]
         S = K + sum(c * M for c, (_, M) in zip(swell, pulses, strict=True))
@@ -90,14 +90,14 @@ def _plan(problem: Problem, refine: int) -> Plan:
         for share in ORDERS:
             order = ceil(share * ctx.prec)
             exponent = (wanted + R * (rho + D)) / order
-            if exponent > MOST_EXPONENT:
+            if exponent > MAX_EXPONENT:
                 continue
             h = R * min(0.5, exp(-exponent))
             work = order**2 * ceil(2.0 * pi / h)
             if work < least:
                 least, best = work, Plan(order, refine * ceil(2.0 * pi / h), R, rho)
-    if best is None or best.steps > MOST_STEPS:
-        raise TooWide(f"takes more than {MOST_STEPS} Taylor steps")
+    if best is None or best.steps > MAX_STEPS:
+        raise TooWide(f"takes more than {MAX_STEPS} Taylor steps")
     return best
 
 

@@ -22,18 +22,18 @@ from hill.multipliers import newton_polygon
 SAFETY = 4.0
 
 # Samples on a circle beyond the coefficients there are.
-SPARE = 3
+SPARE_POINTS = 3
 
 # Another circle is worth its time where it makes a coefficient so much better known.
 GAIN = 30.0
-MOST_CIRCLES = 8
+MAX_CIRCLES = 8
 
 # Where a group of rows is singular at a sample, or nearly, another circle is tried.
 SHIFTS = (0.0, 0.011, -0.017, 0.029)
 GOOD = 1e-11
 
 # exp of it is still a float.
-MOST_EXPONENT = 690.0
+MAX_EXPONENT = 690.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,7 +97,7 @@ def polynomial(d: Determinant) -> Polynomial:
         A coefficient is too large for a float.
     """
     found = [_circle(d, 0.0)]
-    while len(found) < MOST_CIRCLES and (shift := _better(d, found)) is not None:
+    while len(found) < MAX_CIRCLES and (shift := _better(d, found)) is not None:
         found.append(_circle(d, shift))
     c, errors, data = _combined(d, found)
     if not (np.all(np.isfinite(c)) and np.all(np.isfinite(errors + data))):
@@ -125,7 +125,7 @@ def _circle(d: Determinant, shift: float) -> _Circle:
 def _samples(d: Determinant, shift: float) -> _Circle:
     """By samples at |y| = exp(2 pi shift)."""
     m = d.order
-    count = m + 1 + SPARE + (m + SPARE + 1) % 2
+    count = m + 1 + SPARE_POINTS + (m + SPARE_POINTS + 1) % 2
     half = np.arange(count // 2 + 1)
     found = values(d, shift + 1j * half / count)
     top = int(np.max(found.exponent))
@@ -138,7 +138,7 @@ def _samples(d: Determinant, shift: float) -> _Circle:
     k = np.arange(m + 1)
     weight = np.pi * shift * (2.0 * k - m) - top * np.log(2.0)
     expected = np.zeros(len(means))
-    expected[[0, m]] = np.exp(np.minimum(weight[[0, m]], MOST_EXPONENT)) * [(-1.0) ** m, 1.0]
+    expected[[0, m]] = np.exp(np.minimum(weight[[0, m]], MAX_EXPONENT)) * [(-1.0) ** m, 1.0]
     defect = float(np.max(np.abs((means - expected)[[0, *range(m, len(means))]])))
     lost = float(np.sum(size * found.rounding))
     own = 2.0 * EPS * (np.abs(weight) + np.pi * m * abs(shift)) + d.mean_error

@@ -31,13 +31,13 @@ from hill.determinant.pencil import Pencil
 TERMS = 40
 """Of the series: at 2.6 times what the coefficients grow by they end at 1e-17."""
 
-LEFT = 1e-17
+REMAINDER = 1e-17
 """What the last terms may still add."""
 
 LAST = 4
 """Terms by which the end of a series is judged: some may be zero by symmetry."""
 
-MOST = 10_000
+MAX_GROUPS = 10_000
 """Groups that may be kept at most, on either side."""
 
 
@@ -109,7 +109,7 @@ def kept(p: Pencil, t: Tail) -> int:
     Raises
     ------
     ValueError
-        More than `MOST`.
+        More than `MAX_GROUPS`.
     """
     size, powers = np.max(np.sum(np.abs(t.S), axis=2), axis=1), np.arange(TERMS + 1)
     with np.errstate(divide="ignore"):
@@ -123,15 +123,15 @@ def kept(p: Pencil, t: Tail) -> int:
             of_h = np.exp(log_h - powers[:-1] * np.log(z))
         last = max(np.max(of_S[-LAST:]), np.max(of_h[-LAST:]))
         # and the rows beyond are far from singular
-        return bool(last < LEFT and np.sum(of_S[1:]) < 1.0)
+        return bool(last < REMAINDER and np.sum(of_S[1:]) < 1.0)
 
-    if not enough(MOST):
+    if not enough(MAX_GROUPS):
         highest = float(np.max(size[-LAST:] ** (1.0 / powers[-LAST:]))) / p.Omega
         raise ValueError(
-            f"too small for the determinant, which would need more than {MOST * p.reach:,} "
+            f"too small for the determinant, which would need more than {MAX_GROUPS * p.reach:,} "
             f"harmonics of it: something moves {highest:.3g} times as fast"
         )
-    return bisect_left(range(1, MOST), True, key=enough) + 1
+    return bisect_left(range(1, MAX_GROUPS), True, key=enough) + 1
 
 
 def _polynomials(p: Pencil, c: complex) -> list[Complex]:

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from hill.arrays import EPS, Complex, Float
 from hill.determinant.general import folded
 from hill.determinant.general_rounding import motion
-from hill.determinant.general_tail import LEFT, Tail, kept, tail
+from hill.determinant.general_tail import REMAINDER, Tail, kept, tail
 from hill.determinant.pencil import Pencil, pencil
 from hill.equation import HillEquation
 from hill.periodic import PeriodicEquation
@@ -118,5 +118,7 @@ def values(d: Determinant, log_y: Complex, *, bounds: bool = True) -> Values:
     for start in range(0, len(log_y), some):
         f = folded(d.p, d.t, d.K, d.mean + log_y[start : start + some])
         m = motion(d.p, d.t, f, bounds=bounds)
-        found.append((f.mantissa, f.exponent, m.slope, m.rounding + bounds * 10.0 * LEFT, m.data))
+        found.append(
+            (f.mantissa, f.exponent, m.slope, m.rounding + bounds * 10.0 * REMAINDER, m.data)
+        )
     return Values(*(np.concatenate(parts) for parts in zip(*found, strict=True)))

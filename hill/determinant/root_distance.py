@@ -13,7 +13,7 @@ from hill.equation import HillEquation
 from hill.periodic import PeriodicEquation
 
 # Of P' by rounding: beyond it nothing is said.
-MOST_OFF = 0.5
+MAX_OFF = 0.5
 
 
 @dataclass(frozen=True, eq=False)
@@ -107,7 +107,7 @@ def _measured(
     size = np.abs(newton)
     # what rounding adds to P is a polynomial too, whose derivative Markov bounds
     off = degree**2 * here.rounding * size / here.unit
-    known = off < MOST_OFF
+    known = off < MAX_OFF
     reach = np.where(known, degree * size / (1.0 - np.where(known, off, 0.0)), np.inf)
     error = reach * here.rounding + here.blur + np.abs(moved - v)
     return RootDistance(

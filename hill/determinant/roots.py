@@ -31,7 +31,7 @@ from hill.determinant.general_values import Determinant, values
 # Of ln |mu|: where T is known less well from a polynomial, the roots themselves are looked at.
 WELL_KNOWN = 1e-11
 
-MOST_SWEEPS = 24
+MAX_SWEEPS = 24
 
 # Sweeps after which the symmetry of roots about the real axis is given up.
 SYMMETRIC = 3
@@ -43,7 +43,7 @@ NEAR, SLOW = 1e-6, 0.8
 BLUR = 8.0 * EPS
 
 # Moves a point off one where nothing can be evaluated, a root or where a group of rows is singular.
-ASIDE, MOST_ASIDE = 1.0 + 2.0**-46, 8
+ASIDE, MAX_ASIDE = 1.0 + 2.0**-46, 8
 
 
 @dataclass(frozen=True, eq=False)
@@ -132,7 +132,7 @@ def improved(evaluate: Evaluate, v: Complex) -> Complex:
     v = apart(v)
     moving = np.arange(len(v))
     last = np.full(len(v), np.inf)
-    for sweep in range(MOST_SWEEPS):
+    for sweep in range(MAX_SWEEPS):
         try:
             slope = evaluate(v[moving], False).slope
         except np.linalg.LinAlgError:
@@ -192,7 +192,7 @@ class Discs:
 
 def at(evaluate: Evaluate, v: Complex) -> tuple[At, Complex]:
     """With bounds, at the points or a few ulps aside; and at which."""
-    for _ in range(MOST_ASIDE):
+    for _ in range(MAX_ASIDE):
         try:
             return evaluate(v, True), v
         except np.linalg.LinAlgError:

@@ -9,7 +9,7 @@ from flint import acb, acb_mat, arb, ctx
 from hill.enclosure.rows import Rows
 from hill.enclosure.tail import Tail, TooWide, divided, eliminated, group, logarithm, tail
 
-MOST_BITS = 1 << 12
+MAX_BITS = 1 << 12
 
 
 def polynomial(make: Callable[[], Rows], bits: int) -> tuple[list[Any], Tail]:
@@ -23,10 +23,10 @@ def polynomial(make: Callable[[], Rows], bits: int) -> tuple[list[Any], Tail]:
     Raises
     ------
     TooWide
-        `MOST_BITS` do not do, or too many harmonics.
+        `MAX_BITS` do not do, or too many harmonics.
     """
     work, asked = max(128, 2 * bits), bits + 16
-    while work <= MOST_BITS:
+    while work <= MAX_BITS:
         with ctx.workprec(work):
             try:
                 rows = make()
@@ -39,7 +39,7 @@ def polynomial(make: Callable[[], Rows], bits: int) -> tuple[list[Any], Tail]:
                 if all(arb(c.rad()) < size * arb(2) ** -bits for c in found):
                     return found, beyond
         work, asked = 2 * work, asked + bits // 2
-    raise TooWide(f"P is not known to {bits} bits with {MOST_BITS} in the work")
+    raise TooWide(f"P is not known to {bits} bits with {MAX_BITS} in the work")
 
 
 def _interpolated(rows: Rows, beyond: Tail) -> list[Any]:

@@ -28,7 +28,7 @@ from hill.enclosure.rows import Rows
 WIDER = 4
 
 # Steps of the elimination tried, and harmonics: a system that takes more is beyond it.
-MOST_STEPS, MOST_HARMONICS = 60, 6000
+MAX_STEPS, MAX_HARMONICS = 60, 6000
 
 
 class TooWide(ValueError):
@@ -66,7 +66,7 @@ def tail(rows: Rows, bits: int) -> Tail:
     Raises
     ------
     TooWide
-        It takes more than `MOST_HARMONICS`.
+        It takes more than `MAX_HARMONICS`.
     """
     terms = bits // 2 + 12
     steps = 1
@@ -77,12 +77,10 @@ def tail(rows: Rows, bits: int) -> Tail:
         if moved < arb(2) ** -bits:
             break
         steps += 1
-        if steps > MOST_STEPS:
-            raise TooWide(
-                f"the determinant takes more than {MOST_STEPS} steps beyond its harmonics"
-            )
-    if start > MOST_HARMONICS:
-        raise TooWide(f"the determinant takes more than {MOST_HARMONICS} harmonics")
+        if steps > MAX_STEPS:
+            raise TooWide(f"the determinant takes more than {MAX_STEPS} steps beyond its harmonics")
+    if start > MAX_HARMONICS:
+        raise TooWide(f"the determinant takes more than {MAX_HARMONICS} harmonics")
     share = arb(r) / start
     g = rows.reach
     # sum over k of (start + g k)^-j is at most start^-j (1 + start/(g (j - 1)))
@@ -132,7 +130,7 @@ def _disc(rows: Rows, steps: int) -> tuple[int, Any]:
     """
     size, coupling, g = rows.size, rows.coupling, rows.reach
     r = int(float(size.upper()) ** 0.5) + g * (steps + 1) + 2
-    while r <= MOST_HARMONICS:
+    while r <= MAX_HARMONICS:
         # the nearest harmonic of the group k steps ahead is (g - 1)/2 nearer than its middle
         squares = [(arb(r) - g * k - arb(g - 1) / 2) ** 2 - size for k in range(steps + 1)]
         if all(q > 0 for q in squares):
@@ -150,7 +148,7 @@ def _disc(rows: Rows, steps: int) -> tuple[int, Any]:
                     if C < 3:
                         return r, C.upper()
         r += 1 + r // 16
-    raise TooWide(f"the determinant takes more than {MOST_HARMONICS} harmonics")
+    raise TooWide(f"the determinant takes more than {MAX_HARMONICS} harmonics")
 
 
 def _steps_left_out(rows: Rows, start: int, steps: int) -> tuple[Any, Any]:

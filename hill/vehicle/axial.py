@@ -19,8 +19,8 @@ from hill.vehicle.series import TERMS
 from hill.vehicle.shapes import NODES
 
 # |s| m h^2/EA of a panel: its series ends like 2^-n/n!, or like the taper's.
-MOST_WAVES = 1.0
-MOST_PANELS = 1000
+MAX_WAVES = 1.0
+MAX_PANELS = 1000
 
 # What is left of two products that cancel at a resonance, over them, when it is rounding.
 CANCELLED = 16.0 * EPS
@@ -114,8 +114,8 @@ def _panels(mesh: Mesh, s: complex) -> int:
     """Panels of an element, short enough for the force's waves."""
     waves = (mesh.m[:, 0] + abs(mesh.m[:, 1])) / (mesh.EA[:, 0] - abs(mesh.EA[:, 1]))
     most = float(np.max(abs(s) * waves * (2.0 * mesh.half) ** 2))
-    panels = max(1, int(np.ceil(np.sqrt(most / MOST_WAVES))))
-    if panels > MOST_PANELS:
+    panels = max(1, int(np.ceil(np.sqrt(most / MAX_WAVES))))
+    if panels > MAX_PANELS:
         raise Refused(
             "Omega: the axial force has more waves along the vehicle than can be followed"
         )

@@ -7,7 +7,7 @@ import numpy as np
 
 from hill import checks
 from hill.arrays import EPS, Float
-from hill.vehicle.vehicle import MOST_MODES, Vehicle
+from hill.vehicle.vehicle import MAX_MODES, Vehicle
 
 STEP = 2
 """Modes that are added at a time: the odd and the even ones of a like vehicle take turns."""
@@ -83,7 +83,7 @@ def with_more_modes(
     if vehicle.damping.matrix is not None:
         raise ValueError("damping.matrix: fixes the number of modes; give ratios or eta instead")
     asked = modes or range(vehicle.modes, vehicle.modes + VALUES * STEP, STEP)
-    numbers = tuple(checks.count("modes", n, least=1, most=MOST_MODES) for n in asked)
+    numbers = tuple(checks.count("modes", n, least=1, most=MAX_MODES) for n in asked)
     if len(numbers) < 4 or list(numbers) != sorted(set(numbers)):
         raise ValueError(f"modes = {numbers}: must be four numbers or more, ascending")
     values = tuple(float(of(replace(vehicle, modes=n))) for n in numbers)

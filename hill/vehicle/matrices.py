@@ -12,7 +12,7 @@ from hill.vehicle.modes import Modes, modes
 from hill.vehicle.parts import Damping, Thrust
 from hill.vehicle.shapes import PSI, Shapes, Y
 from hill.vehicle.units import Units
-from hill.vehicle.vehicle import MOST_MODES, Vehicle
+from hill.vehicle.vehicle import MAX_MODES, Vehicle
 
 # Rounding of an element of a matrix, over the largest; measured against the report's closed forms
 # and against other meshes of the same vehicles.
@@ -128,7 +128,7 @@ def _structure(vehicle: Vehicle) -> Structure:
     together = TOGETHER
     while together < number:
         together *= 2
-    together = min(together, MOST_MODES)
+    together = min(together, MAX_MODES)
     if number < together:
         return _structure(replace(vehicle, modes=together)).of_the_lowest(number)
     found = modes(vehicle, number)

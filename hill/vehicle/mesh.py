@@ -18,17 +18,17 @@ from hill.vehicle.vehicle import Vehicle
 
 # A property's change over half an element, over its value in the middle: a series about the middle
 # falls like this to the n-th.
-MOST_TAPER = 0.2
+MAX_TAPER = 0.2
 
 # lambda m h^4/EI of an element. One that is clamped at both ends has no frequency below lambda: by
 # Wirtinger's inequality, (h/pi)^2 |f'|^2 >= |f|^2, that holds while 2 lambda m h^4/(pi^4 EI)
 # + lambda r h^2/(pi^2 EI) < 1 and 2 lambda m h^2/(pi^2 kGA) < 1, and here they are .02 + .1 and .2.
-MOST_BENDING = 1.0
-MOST_SHEAR = 1.0
+MAX_BENDING = 1.0
+MAX_SHEAR = 1.0
 
-MOST_ELEMENTS = 20_000
+MAX_ELEMENTS = 20_000
 
-MOST_RANGE = 1e12
+MAX_RANGE = 1e12
 """Largest over smallest EI, or mass per length, of a vehicle: beyond it there is only rounding."""
 
 
@@ -107,10 +107,10 @@ def scales(vehicle: Vehicle) -> Scales:
     """The vehicle's length, mass and harmonic mean of EI."""
     for name in ("EI", "mass_per_length"):
         values = [x for s in vehicle.sections for x in getattr(s, name)]
-        if max(values) > MOST_RANGE * min(values):
+        if max(values) > MAX_RANGE * min(values):
             raise Refused(
                 f"sections: {name} from {min(values):g} to {max(values):g}, it must not change by "
-                f"more than {MOST_RANGE:g}"
+                f"more than {MAX_RANGE:g}"
             )
     mass = sum(s.length * 0.5 * sum(s.mass_per_length) for s in vehicle.sections)
     mass += sum(p.mass for p in vehicle.masses)
@@ -140,9 +140,9 @@ def mesh(vehicle: Vehicle, most: float) -> Mesh:
             t1 += grid[1:].tolist()
             nodes += ((starts[k] + section.length * grid[1:]) / unit.length).tolist()
         nodes[-1] = ends[k] / unit.length
-        if len(nodes) > MOST_ELEMENTS:
+        if len(nodes) > MAX_ELEMENTS:
             raise Refused(
-                f"sections[{k + 1}]: the vehicle needs more than {MOST_ELEMENTS:,} elements, its "
+                f"sections[{k + 1}]: the vehicle needs more than {MAX_ELEMENTS:,} elements, its "
                 "properties change too much or too many modes are asked for"
             )
     made = Mesh(
@@ -191,9 +191,9 @@ def _cut(section: Section, a: float, b: float, unit: Scales, most: float) -> Flo
         found.append(min(_next(section, found[-1], unit, most), b))
         if b - found[-1] < 1e-9 * (b - a):
             found[-1] = b
-        if len(found) > MOST_ELEMENTS:
+        if len(found) > MAX_ELEMENTS:
             raise Refused(
-                f"a section of EI = {list(section.EI)} needs more than {MOST_ELEMENTS:,} elements: "
+                f"a section of EI = {list(section.EI)} needs more than {MAX_ELEMENTS:,} elements: "
                 "its properties change too much, or too many modes are asked for"
             )
     # equal parts where the section is uniform
@@ -220,9 +220,9 @@ def _next(section: Section, t: float, unit: Scales, most: float) -> float:
     for name in ("EI", "kGA", "EA"):
         start, end = getattr(section, name)
         if start != end:
-            # half/middle is MOST_TAPER where the value has changed by 2 MOST_TAPER/(1 -+ it)
+            # half/middle is MAX_TAPER where the value has changed by 2 MAX_TAPER/(1 -+ it)
             here, slope = at(name, t), end - start
-            change = 2.0 * MOST_TAPER / (1.0 - math.copysign(MOST_TAPER, slope))
+            change = 2.0 * MAX_TAPER / (1.0 - math.copysign(MAX_TAPER, slope))
             step = min(step, change * here / abs(slope))
     stop = t + step
     length = section.length / unit.length
@@ -230,10 +230,10 @@ def _next(section: Section, t: float, unit: Scales, most: float) -> float:
     kGA = min(at("kGA", t), at("kGA", stop)) / unit.force
     m = max(at("mass_per_length", t), at("mass_per_length", stop)) * unit.length / unit.mass
     r = max(at("rotary_inertia", t), at("rotary_inertia", stop)) / unit.mass / unit.length
-    step = min(step, (MOST_BENDING * EI / (most * m)) ** 0.25 / length)
+    step = min(step, (MAX_BENDING * EI / (most * m)) ** 0.25 / length)
     for inertia, stiffness in ((m, kGA), (r, EI)):
         if inertia > 0.0 and math.isfinite(stiffness):
-            step = min(step, math.sqrt(MOST_SHEAR * stiffness / (most * inertia)) / length)
+            step = min(step, math.sqrt(MAX_SHEAR * stiffness / (most * inertia)) / length)
     return t + step
 
 

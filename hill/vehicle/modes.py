@@ -25,7 +25,7 @@ STEPS = 12
 # Steps below this share, no longer halved, are rounding.
 SETTLED = 1e-11
 # A uniform free beam's first lambda is 500, in the same units; a vehicle's is not so far from it.
-LEAST, MOST = 1e-7, 1e16
+MIN_LAMBDA, MAX_LAMBDA = 1e-7, 1e16
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,7 +91,7 @@ def _long_enough(vehicle: Vehicle, wanted: int) -> tuple[Mesh, Series, tuple[Cou
     first = mesh(vehicle, 1.0)
     waves = float(np.sum(2.0 * first.half * (first.m[:, 0] * first.flexibility[:, 0]) ** 0.25))
     most = ((wanted + 0.5) * np.pi / waves) ** 4
-    while most < MOST * wanted**4:
+    while most < MAX_LAMBDA * wanted**4:
         cut = mesh(vehicle, most)
         solutions = series(cut)
 
@@ -129,7 +129,7 @@ def _brackets(
     low = 1.0
     while counted(np.array([low]))[0] > rigid:
         low *= 0.1
-        if low < LEAST:
+        if low < MIN_LAMBDA:
             raise Refused("modes: the lowest is too soft for its mass to be told from a rigid one")
     known = {low: rigid, most: int(counted(np.array([most]))[0])}
     targets = np.arange(rigid + 1, rigid + number + 1)

@@ -10,7 +10,7 @@ from hill.vehicle.parts import PointMass, Sensor
 End = Literal["free", "pinned", "clamped"]
 ENDS = ("free", "pinned", "clamped")
 
-MOST_PARTS = 5000
+MAX_PARTS = 5000
 
 # Stations are sums of lengths: the aft end as typed may miss the sum by its rounding.
 STATION = 1e-12
@@ -56,6 +56,6 @@ def items(name: str, value: Any, kind: type) -> tuple[Any, ...]:
     for k, item in enumerate(found, start=1):
         if not isinstance(item, kind):
             raise ValueError(f"{name}[{k}] = {item!r}: must be a {kind.__name__}")
-    if len(found) > MOST_PARTS:
-        raise ValueError(f"{name}: are {len(found):,}, must be at most {MOST_PARTS:,}")
+    if len(found) > MAX_PARTS:
+        raise ValueError(f"{name}: are {len(found):,}, must be at most {MAX_PARTS:,}")
     return found

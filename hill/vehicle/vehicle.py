@@ -20,7 +20,7 @@ from hill.vehicle.vary import varied, varying
 AxialDamping = Literal["report", "hysteretic"]
 AXIAL_DAMPING = ("report", "hysteretic")
 
-MOST_MODES = 60
+MAX_MODES = 60
 """An equation of more coordinates takes either route minutes."""
 
 UNLOADED, UNDAMPED, SI = Thrust(), Damping(), Units()
@@ -92,7 +92,7 @@ class Vehicle:
             servo_time=checks.between("servo_time", self.servo_time, 0.0, math.inf),
             g=checks.between("g", self.g, 0.0, LARGEST_G),
             units=checked(self.units),
-            modes=checks.count("modes", self.modes, least=1, most=MOST_MODES),
+            modes=checks.count("modes", self.modes, least=1, most=MAX_MODES),
         )
         if not self.sections:
             raise ValueError("sections: must be at least one")

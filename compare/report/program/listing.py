@@ -19,7 +19,7 @@ Complex = NDArray[np.complexfloating[Any, Any]]
 RIGID = 50.0
 """OMEGL beyond which the stepped program drops compliance (appendix B-4)."""
 
-MOST_HARMONICS = 14
+MAX_HARMONICS = 14
 
 MAX_STEPS = 100
 """Steps one way before the search for a boundary is given up: the report's runs take five."""
@@ -102,7 +102,7 @@ def stab(deck: Uniform | Stepped, case: Case, OMEGB: float) -> Stab:
     F, G, H = coefficients(deck, case, OMEGB)
     w = np.sqrt(np.abs(np.diag(F))) / OMEGB  # SLIP: hides a negative F_jj
     M = (np.sqrt(abs(F[deck.N - 1, deck.N - 1])) / OMEGB + w + 1.0).astype(int)
-    kept = np.minimum(M, MOST_HARMONICS)
+    kept = np.minimum(M, MAX_HARMONICS)
     zeta = np.cos(2.0 * deck.PI * w)
     K = np.array(
         [
@@ -118,7 +118,7 @@ def stab(deck: Uniform | Stepped, case: Case, OMEGB: float) -> Stab:
     root = np.sqrt(z * z - 1.0)
     R = np.maximum(np.abs(z + root), np.abs(z - root)).max()
     STAB1 = float(np.log(R) * OMEGB / deck.PI - case.ETA)
-    return Stab(OMEGB, z, STAB1, int(np.sum(M > MOST_HARMONICS)))
+    return Stab(OMEGB, z, STAB1, int(np.sum(M > MAX_HARMONICS)))
 
 
 def switch(
