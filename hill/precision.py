@@ -65,23 +65,25 @@ def remark(
     return "; ".join(said)
 
 
-def remark_of_slopes(
-    T: float, Omega: float, known: Mapping[str, tuple[ArrayLike, ArrayLike, ArrayLike]]
-) -> str:
+def remark_of_slopes(known: Mapping[str, tuple[ArrayLike, ArrayLike, ArrayLike]]) -> str:
     """Which derivatives of T are poorly known, in a sentence; empty where none is.
 
-    One is where its error is above nine digits of the largest slope of its parameter, and moves T
-    by more than nine digits if the whole parameter goes, as `poor_T` counts them.
+    One is where its error, times its parameter, is above nine digits of the largest product of a
+    slope and its parameter: of what T owes to any of them.
 
     Parameters
     ----------
-    T, Omega
     known : mapping of str to (slope, error, value)
         By parameter: arrays of one shape where it is a matrix.
     """
-    poor = []
-    for name, (slope, error, value) in known.items():
-        slopes, errors, values = (np.max(np.abs(x), initial=0.0) for x in (slope, error, value))
-        if not errors <= POOR * slopes and poor_T(T, errors * values, Omega):
-            poor.append(f"dT/d{name} to +- {errors:.1e}")
+    owed, doubt = (
+        {name: float(np.vdot(np.abs(of[k]), np.abs(of[2]))) for name, of in known.items()}
+        for k in (0, 1)
+    )
+    most = max(owed.values(), default=0.0)
+    poor = [
+        f"dT/d{name} to +- {np.max(np.asarray(error)):.1e}"
+        for name, (_, error, _) in known.items()
+        if not doubt[name] <= POOR * most
+    ]
     return f"known only: {', '.join(poor)}" if poor else ""

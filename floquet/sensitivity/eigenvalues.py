@@ -103,10 +103,13 @@ class _Basis:
 
     def mixing(self, error: Float) -> Float:
         """How much of the other eigenvectors an error of the matrix mixes into each, (m,)."""
-        coupled = np.abs(self.left) @ error @ np.abs(self.right)
+        # the library's own error is one of the whole matrix, and small elements feel it: measured
+        diagonal = self.left @ self.run.matrix @ self.right
+        lost = np.abs(self.left @ self.right - np.eye(len(self.values))).sum(axis=1)
+        coupled = np.abs(self.left) @ error @ np.abs(self.right) + np.abs(diagonal)
         gap = np.abs(self.values[:, None] - self.values)
         np.fill_diagonal(gap, np.inf)
-        return np.asarray(np.sum((coupled + coupled.T) / gap, axis=1))
+        return np.asarray(np.sum((coupled + coupled.T) / gap, axis=1) + lost)
 
 
 def _refuse_multiple(roots: Roots, j: int) -> None:

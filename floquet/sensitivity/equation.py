@@ -145,7 +145,7 @@ def sensitivities(equation: HillEquation) -> Sensitivities:
         dT_error=dT_error,
         dz=_shaped(equation, found.slope),
         dz_error=_shaped(equation, found.error),
-        remark=remark_of_slopes(m.T, equation.Omega, known),
+        remark=remark_of_slopes(known),
     )
 
 
@@ -174,7 +174,9 @@ def _of_z(z: Complex, radius: Float) -> _Growth:
     x, y = np.abs(z.real), np.abs(z.imag)
     # the slope's own is z (z^2 - 1)^(-3/2)
     nearest = [np.maximum(np.abs(z - edge) - radius, 0.0) for edge in (1.0, -1.0)]
-    steepest = (np.abs(z) + radius) / (nearest[0] * nearest[1]) ** 1.5
+    steepest = np.abs(z) + radius
+    for distance in nearest:  # one after the other: z may be as large as floats are
+        steepest = steepest / distance / np.sqrt(distance)
     return _Growth(
         value=ln_mu(x, y),
         least=ln_mu(np.maximum(x - radius, 0.0), np.maximum(y - radius, 0.0)),

@@ -113,7 +113,7 @@ def general_sensitivities(equation: PeriodicEquation) -> GeneralSensitivities:
         exponent=complex(found.exponents[0]),
         dT=_shaped(equation, slope),
         dT_error=_shaped(equation, error),
-        remark=remark_of_slopes(found.T, equation.Omega, _known(equation, slope, error)),
+        remark=remark_of_slopes(_known(equation, slope, error)),
     )
 
 

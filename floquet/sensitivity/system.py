@@ -108,7 +108,7 @@ def system_sensitivities(
         dz={name: found for name, (found, _) in z.items()},
         dz_error={name: error for name, (_, error) in z.items()},
         shared_matrices=shared,
-        remark=remark_of_slopes(s.T, Omega, known),
+        remark=remark_of_slopes(known),
     )
 
 
