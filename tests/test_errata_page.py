@@ -11,6 +11,7 @@ from compare.report.row import Outcome
 from compare.report.tables import all_rows
 
 errata_page = import_module("compare.report.errata_page")
+errata_tables = import_module("compare.report.errata_tables")
 
 PAGE = Path(__file__).parent.parent / "docs" / "errata.md"
 
@@ -40,7 +41,7 @@ def test_numbers_are_the_same_on_any_machine(
 ) -> None:
     """No number on the page is nearer than rounding noise to where its last digit turns."""
     shown = []
-    fixed, power = errata_page._fixed, errata_page._power
+    fixed, power = errata_tables._fixed, errata_tables._power
 
     def watched_fixed(value: float, digits: int) -> str:
         # 1e-9 is far above what another BLAS changes (1e-11 for z and T), far below a digit
@@ -51,8 +52,8 @@ def test_numbers_are_the_same_on_any_machine(
         shown.append({power(value + d, digits) for d in (-1e-9, 0.0, 1e-9)})
         return power(value, digits)
 
-    monkeypatch.setattr(errata_page, "_fixed", watched_fixed)
-    monkeypatch.setattr(errata_page, "_power", watched_power)
+    monkeypatch.setattr(errata_tables, "_fixed", watched_fixed)
+    monkeypatch.setattr(errata_tables, "_power", watched_power)
     errata_page.page(outcomes)
     assert len(shown) > 50
     assert [texts for texts in shown if len(texts - {"-0.00000"}) > 1] == []
