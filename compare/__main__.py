@@ -20,6 +20,7 @@ COMMANDS: tuple[str, ...] = (
     "figures",
     "claims",
     "prove",
+    "report",
 )
 """Subcommands, each a module of `compare.commands` with SUMMARY, EPILOG, configure and run."""
 

@@ -228,6 +228,14 @@ def _all() -> dict[str, tuple[list[str], str]]:
     add("figures", ["figures", "--figure", "2"])
     add("figures output", ["figures", "--output", "locked.csv"])
     add("claims", ["claims", "--format", "xml"])
+    pages = ["report", "--output", "pages"]
+    add("report without output", ["report"], "--output")
+    for output in ("notes.txt", ".", "gone/pages", "x" * 300):
+        add(f"report output {output[:12]}", ["report", "--output", output], "output")
+    add("report figures gone", [*pages, "--figures", "gone"], "gone")
+    add("report no figures", [*pages, "--figures", "folder"], "folder")
+    add("report figures twice", [*pages, "--figures", "folder", "--draw"], "--figures")
+    add("report workers", [*pages, "--workers", "0"], "workers")
     add("prove row", ["prove", "T1-7"], "T1-7")
     add("prove file and row", ["prove", "good.toml", "T1-01"], "good.toml")
     add("prove gone", ["prove", "gone.toml"], "gone.toml")

@@ -69,6 +69,7 @@ def _load() -> None:
         claims,
         figures,
         listing,
+        report,
         rows,
         sensitivity,
         system,

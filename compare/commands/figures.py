@@ -62,11 +62,11 @@ def run(options: argparse.Namespace) -> int:
     if set(formats) - {"csv"}:
         require()
     _prepare(options.output)
-    job = partial(_make, formats=formats)
+    job = partial(drawn, formats=formats)
     lines: list[tuple[int, str]] = []
     with progress("figures", len(numbers)) as advance, mapper(options.workers) as each:
-        for made in each(job, tasks(numbers)):
-            for number, files, line in made:
+        for group in each(job, tasks(numbers)):
+            for number, files, line in group:
                 # here and not there: who computes may be ended at any time
                 for kind, content in files.items():
                     write_whole(options.output / f"figure{number:02d}.{kind}", content)
@@ -89,11 +89,11 @@ def _prepare(folder: Path) -> None:
     check_writable(folder / "figure")
 
 
-def _make(
+def drawn(
     group: tuple[int, ...], formats: tuple[str, ...]
 ) -> list[tuple[int, dict[str, bytes], str]]:
     """Figures of one group, computed and drawn: files by format, and a line about each."""
-    made = []
+    found = []
     for number in group:
         data = compute(number)
         content: dict[str, bytes] = {}
@@ -103,7 +103,7 @@ def _make(
         if "csv" in formats:
             content["csv"] = as_csv(data).encode()
         kinds = ", ".join(sorted(content))
-        made.append(
+        found.append(
             (
                 number,
                 content,
@@ -111,4 +111,4 @@ def _make(
                 f"in {data.quantity} at most",
             )
         )
-    return made
+    return found

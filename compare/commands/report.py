@@ -1,0 +1,147 @@
+"""``verify report``: what was found as a set of HTML pages."""
+
+import argparse
+import sys
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+
+from compare.commands.figures import FORMATS, drawn
+from compare.commands.terminal import stages
+from compare.jobs.workers import mapper
+from compare.output_folder import check_folder, write_folder
+from compare.pages import printed
+from compare.pages.render import render
+from compare.pages.render import require as require_templates
+from compare.pages.site import Site
+from compare.publications.kincaid import PUBLICATION
+from compare.report.claims.both_routes import RoutesDisagree
+from compare.report.claims.run import JudgedClaim, claims, judge
+from compare.report.figures.catalogue import FIGURES
+from compare.report.figures.compute import tasks
+from compare.report.figures.draw import require as require_pictures
+from compare.report.proofs import prove_row
+from compare.verification import verify
+
+SUMMARY = "write what was found as a set of HTML pages"
+EPILOG = """\
+examples:
+  verify report --output pages        index, tables, a page a row, conclusions,
+                                      errata: open pages/index.html
+  verify report --output pages --figures figures
+                                      with the figures that `verify figures`
+                                      wrote into ./figures
+  verify report --output pages --draw --prove --workers 2
+                                      draw the figures too, which takes minutes,
+                                      and prove every row (extra `proof`)
+
+The pages need no network and no server, and link to each other relatively: the
+directory can be copied, packed and handed on. It is replaced as a whole, and
+only if every file in it is this command's. It needs the extra `pages`.
+
+exit status: 0 the routes agree, and every printed value has its known cause;
+1 they do not; 2 wrong usage or input."""
+
+DRAWN = ("svg", "csv")
+Stage = Callable[[str, int, int], None]
+
+
+def configure(p: argparse.ArgumentParser) -> None:
+    """Options of the command."""
+    p.add_argument("--output", type=Path, metavar="DIR", required=True, help="where to write")
+    p.add_argument(
+        "--figures", type=Path, metavar="DIR", help="take the figures that are there, svg or png"
+    )
+    p.add_argument("--draw", action="store_true", help="compute and draw them (extra plot)")
+    p.add_argument(
+        "--prove", action="store_true", help="prove every verdict, half a minute (extra proof)"
+    )
+    p.add_argument(
+        "--no-claims", action="store_true", help="leave out the conclusions, half of the time"
+    )
+    p.add_argument(
+        "--workers", type=int, default=1, metavar="N", help="processes, -1 for one a core"
+    )
+
+
+def run(options: argparse.Namespace) -> int:
+    """Run it; return the exit status."""
+    require_templates()
+    check_folder(options.output)
+    if options.draw and options.figures:
+        raise ValueError(f"--figures {options.figures}: leave it out, --draw draws them")
+    if options.draw:
+        require_pictures()
+    figures = _found(options.figures) if options.figures else {}
+    with stages() as stage:
+        try:
+            site, ok = _of_the_report(options, figures, stage)
+        except RoutesDisagree as error:
+            print(f"verify report: {error}", file=sys.stderr)
+            return 1
+        files = render(site, lambda done, of: stage("pages", done, of))
+        stage("writing", 0, 0)
+        write_folder(options.output, files, site.about)
+    print(f"written: {options.output / 'index.html'}, {len(site.pages)} pages")
+    return 0 if ok else 1
+
+
+def _of_the_report(
+    options: argparse.Namespace, figures: dict[str, bytes], stage: Stage
+) -> tuple[Site, bool]:
+    rows = PUBLICATION.all_rows()
+    counted = _counter(stage, "rows", len(rows))
+    report = verify(publication=PUBLICATION, workers=options.workers, progress=counted)
+    proofs = []
+    with mapper(options.workers) as each:
+        if options.prove:
+            counted = _counter(stage, "proofs", len(rows))
+            for proof in each(prove_row, rows):
+                proofs.append(proof)
+                counted(proof)
+        if options.draw:
+            counted = _counter(stage, "figures", len(FIGURES))
+            for group in each(partial(drawn, formats=DRAWN), tasks(tuple(FIGURES))):
+                for number, files, _ in group:
+                    figures |= {f"figure{number:02d}.{kind}": data for kind, data in files.items()}
+                    counted(number)
+    judged: tuple[JudgedClaim, ...] = ()
+    if not options.no_claims:
+        judged = judge(progress=_counter(stage, "claims", len(claims())))
+    site = printed.site(report, claims=judged, proofs=proofs, figures=figures)
+    return site, report.ok and all(one.as_expected for one in judged)
+
+
+def _counter(stage: Stage, what: str, total: int) -> Callable[[object], None]:
+    """What moves the bar of a stage on by one."""
+    done = 0
+
+    def advance(_: object) -> None:
+        nonlocal done
+        done += 1
+        stage(what, done, total)
+
+    stage(what, 0, total)
+    return advance
+
+
+def _found(folder: Path) -> dict[str, bytes]:
+    """The pictures and numbers of figures that a folder has."""
+    try:
+        found = {
+            name: (folder / name).read_bytes()
+            for number in FIGURES
+            for name in (f"figure{number:02d}.{kind}" for kind in FORMATS)
+            if (folder / name).is_file()
+        }
+    except OSError as error:
+        reason = (error.strerror or str(error)).lower()
+        raise ValueError(f"--figures {folder}: cannot be read ({reason})") from None
+    if not any(name.endswith((".png", ".svg")) for name in found):
+        raise ValueError(f"--figures {folder}: has no figure03.svg or .png, or any other")
+    # one picture a figure is enough
+    return {
+        name: data
+        for name, data in found.items()
+        if not (name.endswith(".png") and name.replace(".png", ".svg") in found)
+    }
