@@ -15,7 +15,7 @@ from compare import verify
 from compare.__main__ import main
 from compare.commands import report as commands_report
 from compare.output_folder import LIST, check_folder, write_folder
-from compare.pages import mathematics, pictures, printed
+from compare.pages import mathematics, pictures, printed, printed_row
 from compare.pages.motion import Motion
 from compare.pages.render import render
 from compare.pages.site import Site
@@ -42,7 +42,7 @@ def grown(T: float, periods: int = 200) -> Motion:
     tau = np.linspace(0.0, 8 * np.pi * 2.0, 161)
     q = np.exp(0.5 * T * tau)[:, None] * np.cos(np.outer(tau, [0.5, 1.3, 2.9]))
     largest = np.exp(0.5 * T * 2.0 * np.pi * np.arange(1.0, periods + 1.0))[:, None] * np.ones(3)
-    return Motion(tau, q, 2.0 * np.pi, largest, T, printed.COORDINATES)
+    return Motion(tau, q, 2.0 * np.pi, largest, T, printed_row.COORDINATES)
 
 
 @cache

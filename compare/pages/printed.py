@@ -4,13 +4,12 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from compare.pages import pictures
-from compare.pages.drawing import Picture
 from compare.pages.motion import Motion
+from compare.pages.printed_row import held, row_page
 from compare.pages.site import Page, Site
 from compare.provenance import in_words, provenance
 from compare.publication import Cell, Column
-from compare.report import errata_tables
+from compare.report import errata_tables, tables
 from compare.report.claims.page import summary as claims_summary
 from compare.report.claims.run import JudgedClaim
 from compare.report.claims.run import count as count_claims
@@ -18,27 +17,14 @@ from compare.report.errata import all_errata
 from compare.report.errata_tables import BACK, KINDS, VERDICTS, Entry
 from compare.report.figures.catalogue import FIGURES
 from compare.report.figures.style import parameters as held_constant
-from compare.report.match import order
 from compare.report.proofs import RowProof
 from compare.report.proofs import lines as proof_lines
-from compare.report.proofs import record as proof_record
 from compare.report.row import Outcome
-from compare.report.tables import heading
 from compare.verification import Report
 from compare.verification_text import as_csv, as_json
 
 NAME = "A beam under pulsating thrust, its tables recomputed"
 TABLES = {table: f"table-{table}.html" for table in (1, 2, 3)}
-
-CAUSES = {
-    "agrees": "Print agrees with both routes.",
-    "truncation": "The report's determinant is cut off after a few harmonics; cut off in the same "
-    "way, ours gives what is printed.",
-    "listing-slip": "The report's program, slips included, gives what is printed; its equations, "
-    "solved, do not.",
-    "misprint": "A cell is misprinted: with the corrected one the row comes back.",
-    "unexplained": "The report's own program, run again, does not give what is printed.",
-}
 
 # What of the JSON stands in a column of the table; the others are made of two.
 KEYS = {
@@ -68,8 +54,6 @@ COLUMNS = {
     "cause": "why print differs",
     "verdict": "what is shown of stability; marked where print has it wrong",
 }
-
-COORDINATES = ("bending 1", "bending 2", "rotation")
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,40 +88,6 @@ class TableOfRows:
     lines: tuple[Line, ...]
     summary: tuple[str, ...]
     columns: Mapping[str, str]
-
-
-@dataclass(frozen=True, eq=False)
-class RowPage:
-    """One row.
-
-    Attributes
-    ----------
-    record : mapping
-        What JSON holds of it.
-    z_order : mapping
-        Of "printed", "as_run", "hill" and "floquet": which z stands first, second, ...
-    errors : tuple of float
-        Bounds on P's coefficients, of both routes together.
-    multipliers : tuple of (complex, complex)
-        By Hill and by Floquet.
-    pictures, motion : tuple of Picture
-    errata : tuple of Entry
-    proof : mapping or None
-        What JSON of `verify prove` holds of it.
-    """
-
-    record: Mapping[str, Any]
-    printed: Mapping[str, Any]
-    held: tuple[tuple[str, Any], ...]
-    cause: str
-    z_order: Mapping[str, tuple[int, ...]]
-    multipliers: tuple[tuple[complex, complex], ...]
-    pictures: tuple[Picture, ...]
-    motion: tuple[Picture, ...]
-    errata: tuple[Entry, ...]
-    proof: Mapping[str, Any] | None
-    before: str
-    after: str
 
 
 @dataclass(frozen=True, eq=False)
@@ -202,7 +152,7 @@ def site(
     Parameters
     ----------
     report : Report
-        Of all rows, or of some.
+        Of all rows.
     motions : mapping, optional
         By row id.
     claims, proofs : sequences, optional
@@ -216,14 +166,13 @@ def site(
     lines = {o.row.id: _line(report, o) for o in outcomes}
     ids = [o.row.id for o in outcomes]
     pages = []
-    tables = tuple(t for t in TABLES if any(o.row.table == t for o in outcomes))
-    for table in tables:
+    for table in TABLES:
         of_table = [o for o in outcomes if o.row.table == table]
         own = report.publication.rendering.count(of_table).lines
         content = TableOfRows(
             table,
             _title(table),
-            _held(table),
+            held(table),
             tuple(lines[o.row.id] for o in of_table),
             tuple(own),
             COLUMNS,
@@ -231,7 +180,7 @@ def site(
         title = f"Table {table}: {content.title.lower()}"
         pages.append(Page(TABLES[table], title, "table.html", content))
     for k, o in enumerate(outcomes):
-        content_of_row = _row_page(
+        content_of_row = row_page(
             report,
             o,
             (motions or {}).get(o.row.id),
@@ -263,7 +212,7 @@ def site(
                 sum(o.row.table == table for o in outcomes),
                 sum(o.row.table == table and o.flips for o in outcomes),
             )
-            for table in tables
+            for table in TABLES
         ),
         claims=claims_summary(claims) if claims else (),
         proofs=proof_lines(proven) if proven else (),
@@ -294,12 +243,7 @@ def _short(page: Page) -> str:
 
 
 def _title(table: int) -> str:
-    return str(heading(table)["title"])
-
-
-def _held(table: int) -> tuple[tuple[str, Any], ...]:
-    run = heading(table)["run"]
-    return tuple((name, value) for name, value in run.items() if name not in ("beam", "modes"))
+    return str(tables.heading(table)["title"])
 
 
 def _line(report: Report, o: Outcome) -> Line:
@@ -311,53 +255,6 @@ def _line(report: Report, o: Outcome) -> Line:
         tuple((c, cell, KEYS.get(c.name, "")) for c, cell in zip(columns, cells, strict=True)),
         rendering.record(o),
     )
-
-
-def _row_page(
-    report: Report,
-    o: Outcome,
-    motion: Motion | None,
-    errata: tuple[Entry, ...],
-    proof: RowProof | None,
-    beside: tuple[str, str],
-) -> RowPage:
-    row = o.row
-    held = (*_held(row.table), ("omega_L", row.omega_L), ("N", o.modes))
-    roots = pictures.Roots(
-        polynomial=tuple(map(float, o.floquet.polynomial)),
-        hill=_finite(o.hill.z),
-        floquet=_finite(o.floquet.z),
-        printed=row.z,
-    )
-    first = row.z or tuple(o.hill.z)
-    found = {"as_run": o.as_run_z, "hill": o.hill.z, "floquet": o.floquet.z}
-    witness = o.floquet.multipliers[order(_finite(o.hill.multipliers), o.floquet.multipliers)]
-    same = len(first) == len(o.hill.z)
-    return RowPage(
-        record=report.publication.rendering.record(o),
-        printed={"Omega": row.Omega_printed, "T": row.T_printed, "z": row.z_printed},
-        held=held,
-        cause=CAUSES[o.cause],
-        z_order={
-            name: tuple(order(first, z) if same and len(z) == len(first) else range(len(z)))
-            for name, z in found.items()
-        },
-        multipliers=tuple(zip(_finite(o.hill.multipliers), _finite(witness), strict=True)),
-        pictures=(
-            pictures.multipliers(_finite(o.hill.multipliers), _finite(o.floquet.multipliers)),
-            pictures.whole(roots),
-            pictures.closest(roots),
-        ),
-        motion=(pictures.history(motion), pictures.growth(motion)) if motion else (),
-        errata=errata,
-        proof=proof_record(proof) if proof else None,
-        before=beside[0],
-        after=beside[1],
-    )
-
-
-def _finite(values: Iterable[complex]) -> tuple[complex, ...]:
-    return tuple(complex(value) for value in values)
 
 
 def _errata(outcomes: Sequence[Outcome], entries: Sequence[Entry]) -> Errata:
