@@ -51,6 +51,7 @@ class InterpolatedField(PolynomialField):
     chart: Chart
     pieces: tuple[Piece, ...]
     _section: Callable[[int, float], Float] = field(repr=False, compare=False)
+    _frequencies: Callable[[float], Complex] = field(repr=False, compare=False)
 
     @property
     def reading(self) -> Reading:
@@ -64,9 +65,7 @@ class InterpolatedField(PolynomialField):
 
     def frequencies(self, y: float) -> Complex:
         """Natural frequencies, ascending."""
-        Omega, other = axes_of(self.chart)
-        middle = float(np.sqrt(Omega.low * Omega.high))
-        return self.chart.scenario.frequencies({other.name: y}, middle)
+        return self._frequencies(y)
 
     def poles(self, y: float, low: float, high: float) -> Float:
         """Omega between low and high at which the system has no equation."""
@@ -172,8 +171,16 @@ def on_surface(chart: Chart, low: float = np.inf, high: float = 0.0) -> Interpol
     along_y = 1 - chart.axes.index(Omega_axis)
     pieces = (*chart.surface.pieces, *_beside(chart, low, high))
     section = lru_cache(maxsize=SECTIONS)(partial(_section, pieces, along_y))
+
+    @lru_cache(maxsize=SECTIONS)
+    def frequencies(value: float) -> Complex:
+        middle = float(np.sqrt(Omega_axis.low * Omega_axis.high))
+        return chart.scenario.frequencies({y.name: value}, middle)
+
     route = chart.scenario.reading.polynomials["floquet"]
-    return InterpolatedField(equation, lambda e: route([e]).coefficients[0], chart, pieces, section)
+    return InterpolatedField(
+        equation, lambda e: route([e]).coefficients[0], chart, pieces, section, frequencies
+    )
 
 
 def _route_beside(chart: Chart) -> str:
