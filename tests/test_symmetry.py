@@ -20,7 +20,7 @@ ROUTES: dict[str, Callable[[Any], Any]] = {"hill": characteristic, "floquet": mo
 both = pytest.mark.parametrize("route", ROUTES)
 kinds = pytest.mark.parametrize("kind", KINDS)
 
-# Of each class; `python -m benchmarks.honesty.general` asks many more.
+# Of each class; `python -m benchmarks.routes` asks many more.
 SEEDS = range(3)
 
 
