@@ -2,6 +2,7 @@
 
 from floquet.enclosure import enclose, enclose_interval, enclose_region
 from floquet.general.of_time import EstimatedMonodromy
+from floquet.motion.history import Simulation, simulate
 from floquet.period import monodromy
 from floquet.result import Monodromy
 from floquet.sensitivity.equation import Derivatives, Sensitivities, sensitivities
@@ -20,6 +21,7 @@ __all__ = [
     "GeneralSensitivities",
     "Monodromy",
     "Sensitivities",
+    "Simulation",
     "SystemSensitivities",
     "beam_sensitivities",
     "enclose",
@@ -28,5 +30,6 @@ __all__ = [
     "general_sensitivities",
     "monodromy",
     "sensitivities",
+    "simulate",
     "system_sensitivities",
 ]

@@ -77,6 +77,7 @@ ANSWERS = {
     "floquet.enclosure.enclose_interval",
     "floquet.enclosure.result.IntervalProof",
     "floquet.frequencies.natural_frequencies",
+    "floquet.motion.history.simulate",
     "floquet.period.monodromy",
     "floquet.result.Monodromy",
     "floquet.sensitivity.equation.Sensitivities",

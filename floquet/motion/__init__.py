@@ -1,0 +1,1 @@
+"""The motion itself: histories over many periods, Floquet modes, who takes part in what."""
