@@ -2,7 +2,9 @@
 
 from floquet.enclosure import enclose, enclose_interval, enclose_region
 from floquet.general.of_time import EstimatedMonodromy
+from floquet.motion.content import MeasuredGrowth, ModalContent, measured_growth, modal_content
 from floquet.motion.history import Simulation, simulate
+from floquet.motion.shapes import FloquetModes, floquet_modes
 from floquet.period import monodromy
 from floquet.result import Monodromy
 from floquet.sensitivity.equation import Derivatives, Sensitivities, sensitivities
@@ -18,7 +20,10 @@ __all__ = [
     "BeamSensitivities",
     "Derivatives",
     "EstimatedMonodromy",
+    "FloquetModes",
     "GeneralSensitivities",
+    "MeasuredGrowth",
+    "ModalContent",
     "Monodromy",
     "Sensitivities",
     "Simulation",
@@ -27,7 +32,10 @@ __all__ = [
     "enclose",
     "enclose_interval",
     "enclose_region",
+    "floquet_modes",
     "general_sensitivities",
+    "measured_growth",
+    "modal_content",
     "monodromy",
     "sensitivities",
     "simulate",

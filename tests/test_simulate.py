@@ -42,7 +42,7 @@ def sampled(s: Simulation, step: int = 7) -> range:
 
 
 def time(s: Simulation, k: int) -> arb:
-    return 2 * arb.pi() / arb(s.equation.Omega) * k / s.samples
+    return 2 * arb.pi() / arb(s.source.Omega) * k / s.samples
 
 
 def exact(matrix: Any) -> arb_mat:

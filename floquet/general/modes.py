@@ -56,14 +56,14 @@ def periodic_discs(factors: Float, errors: Float) -> tuple[LogDiscs, ...]:
     factors, errors : (p, m, m) ndarray
         Each within its error.
     """
-    modes = nearly_diagonal(factors, errors, *_basis(factors))
+    modes = nearly_diagonal(factors, errors, *modal_bases(factors))
     if modes is None:
         return ()
     alone = one_by_one(modes)
     return by_rows(modes) if alone is None else (alone, *by_rows(modes))
 
 
-def _basis(factors: Float) -> tuple[Complex, Complex]:
+def modal_bases(factors: Float) -> tuple[Complex, Complex]:
     """X_k with P_k X_(k-1) = X_k D_k nearly, (p, m, m) from k = 1, and ln of the D's product."""
     m = factors.shape[-1]
     right, cuts = _settled(factors)

@@ -19,13 +19,19 @@ MAX_NUMBERS = 50_000_000
 """Values in a history: it takes some 40 bytes for each."""
 
 
+def is_second_order(equation: Equation) -> bool:
+    """Whether the state has velocities."""
+    return isinstance(equation, HillEquation) or equation.A is None
+
+
 @dataclass(frozen=True, eq=False)
 class Simulation:
     """A time history, every value with a bound on its error.
 
     Attributes
     ----------
-    equation : HillEquation or PeriodicEquation
+    source : HillEquation or PeriodicEquation
+        What was solved.
     tau : (k,) ndarray
         Dimensionless time, in the units of 1/Omega; k = periods samples + 1.
     q, v : (k, n) ndarray
@@ -40,7 +46,7 @@ class Simulation:
         Why there are fewer periods than were asked for, in a sentence; empty where there are not.
     """
 
-    equation: Equation = field(repr=False)
+    source: Equation = field(repr=False)
     tau: Float
     q: Float
     v: Float
@@ -125,9 +131,9 @@ def simulate(
         raise OverflowError("q0, v0: the motion is beyond what a float can hold within one period")
     states[0], errors[0] = x0, 0.0
     states, errors = (frozen(x[: whole * samples + 1]) for x in (states, errors))
-    n = states.shape[1] // 2 if _is_second_order(equation) else states.shape[1]
+    n = states.shape[1] // 2 if is_second_order(equation) else states.shape[1]
     return Simulation(
-        equation=equation,
+        source=equation,
         tau=frozen(equation.period / samples * np.arange(len(states))),
         q=states[:, :n],
         v=states[:, n:],
@@ -193,10 +199,6 @@ def _vector(name: str, value: ArrayLike, n: int) -> Float:
         i = int(np.argmin(np.isfinite(vector)))
         raise ValueError(f"{name}[{i}] = {vector[i]}: every element must be finite")
     return vector
-
-
-def _is_second_order(equation: Equation) -> bool:
-    return isinstance(equation, HillEquation) or equation.A is None
 
 
 def _why(whole: int, periods: int) -> str:

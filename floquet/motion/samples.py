@@ -5,6 +5,7 @@ samples; what that leaves unsure is carried to all later ones by the products th
 """
 
 import itertools
+from collections.abc import Callable
 from dataclasses import dataclass
 from math import ceil
 
@@ -45,6 +46,23 @@ class SampledPeriod:
     errors: Float
 
 
+@dataclass(frozen=True, eq=False)
+class PartsOfPeriod:
+    """What takes each sample to the next, in units that balance the state.
+
+    Attributes
+    ----------
+    matrices, errors : (samples, m, m) ndarray
+        Bounds on the error of each element.
+    units : (m,) ndarray
+        A state as given is this many times the balanced one.
+    """
+
+    matrices: Float
+    errors: Float
+    units: Float
+
+
 def sampled_period(equation: HillEquation | PeriodicEquation, samples: int) -> SampledPeriod:
     """Integrate one period from each sample to the next.
 
@@ -53,19 +71,36 @@ def sampled_period(equation: HillEquation | PeriodicEquation, samples: int) -> S
     OverflowError
         The growth within the period is beyond a float.
     """
+    parts = parts_of_period(equation, lambda form: samples)
+    with np.errstate(over="ignore", invalid="ignore"):
+        Phi, unsure = _products(parts.matrices, parts.errors)
+    if not (np.all(np.isfinite(Phi)) and np.all(np.isfinite(unsure))):
+        raise OverflowError(OVERFLOW)
+    units = parts.units
+    return SampledPeriod(units[:, None] * Phi / units, units[:, None] * unsure / units)
+
+
+def parts_of_period(
+    equation: HillEquation | PeriodicEquation, count: Callable[[NormalForm], int]
+) -> PartsOfPeriod:
+    """Integrate from each of `count(form)` samples of a period to the next.
+
+    Raises
+    ------
+    OverflowError
+        The growth between two samples is beyond a float.
+    """
     if isinstance(equation, HillEquation):
         form = normal_form(equation.general(), rounded(equation))
     else:
         form = normal_form(equation)
-    each = ceil(PartsTaylor().steps(form) / samples)
-    grid = Grid.of(form, samples, each)
+    samples = count(form)
+    grid = Grid.of(form, samples, ceil(PartsTaylor().steps(form) / samples))
     with np.errstate(over="ignore", invalid="ignore"):
-        parts, errors = _checked_parts(form, grid)
-        Phi, unsure = _products(parts, errors)
-    if not (np.all(np.isfinite(Phi)) and np.all(np.isfinite(unsure))):
+        matrices, errors = _checked_parts(form, grid)
+    if not (np.all(np.isfinite(matrices)) and np.all(np.isfinite(errors))):
         raise OverflowError(OVERFLOW)
-    units = form.state_units(grid.unit)
-    return SampledPeriod(units[:, None] * Phi / units, units[:, None] * unsure / units)
+    return PartsOfPeriod(matrices, errors, form.state_units(grid.unit))
 
 
 def _checked_parts(form: NormalForm, grid: Grid) -> tuple[Float, Float]:
