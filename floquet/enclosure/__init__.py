@@ -1,5 +1,6 @@
 """P, its roots and T as balls that hold the true values, by the time domain; needs python-flint."""
 
+from collections.abc import Sequence
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
@@ -7,6 +8,7 @@ from hill import HillEquation, PeriodicEquation, SteppedBeam, UniformBeam, check
 from hill.decimals import Number
 
 if TYPE_CHECKING:
+    from floquet.enclosure.region import Over, Progress
     from floquet.enclosure.result import Enclosure, IntervalProof, RegionProof
 
 NO_BALLS = "enclosures need python-flint: pip install 'floquet-crosscheck[proof]'"
@@ -96,21 +98,26 @@ def enclose_interval(
 def enclose_region(
     beam: UniformBeam | SteppedBeam,
     *,
-    Omega: tuple[Number, Number],
-    gamma: tuple[Number, Number],
-    strips: int = 200,
+    Omega: Sequence[Number],
+    gamma: Sequence[Number],
+    eta: Number = 0.0,
     halvings: int = 9,
+    over: "Over" = map,
+    progress: "Progress | None" = None,
 ) -> "RegionProof":
-    """Prove what holds for every Omega and gamma of a rectangle, without damping.
+    """Prove what holds at every point of the cells of a grid in Omega and gamma.
 
     Parameters
     ----------
-    Omega, gamma : (low, high)
-    strips : int, optional
-        In gamma; each is decided as a whole, part by part in Omega.
+    Omega, gamma : sequence of float, str or Fraction
+        The cells' edges, ascending.
+    eta : float, str or Fraction, optional
     halvings : int, optional
-        A part of 2**-halvings of a block of Omega that is not decided is left so. A block reaches
-        to 7/5 of its least Omega.
+        How often what is not decided is halved.
+    over : map-like, optional
+        Maps like `map`, in order; the enclosures are its jobs.
+    progress : callable, optional
+        Called with what is being done, how much of it is done, and of how much.
 
     Returns
     -------
@@ -119,16 +126,15 @@ def enclose_region(
     Raises
     ------
     ValueError
-        As `enclose`; an omega_L that is not infinite.
+        As `enclose`; an omega_L that is not infinite; a beam that has no natural frequencies, by
+        flutter or buckling; ranges that take too many enclosures.
     """
     if find_spec("flint") is None:
         raise ValueError(NO_BALLS)
     from floquet.enclosure import region
 
-    strips = checks.count("strips", strips, least=1)
-    return region.prove(
-        _beam(beam), Omega, gamma, strips, checks.count("halvings", halvings, least=0)
-    )
+    halvings = checks.count("halvings", halvings, least=0)
+    return region.prove(_beam(beam), Omega, gamma, eta, halvings, over, progress)
 
 
 def _beam(what: Any) -> UniformBeam | SteppedBeam:

@@ -19,7 +19,9 @@ NARROW = 140
 """Bits to which P's balls are known, of the largest coefficient: 2**-140 is 7e-43."""
 
 
-def narrowed(compute: Callable[[], list[Any]], narrow: int, refine: int = 1) -> list[Any]:
+def narrowed(
+    compute: Callable[[], list[Any]], narrow: int, refine: int = 1, *, begin: int = BITS
+) -> list[Any]:
     """What `compute` returns, with as many bits as make its balls `narrow`, of the largest number.
 
     Raises
@@ -27,7 +29,7 @@ def narrowed(compute: Callable[[], list[Any]], narrow: int, refine: int = 1) -> 
     TooWide
         `MAX_BITS` do not.
     """
-    bits = max(BITS, 2 * narrow) * refine
+    bits = max(begin, 2 * narrow) * refine
     while bits <= MAX_BITS:
         with ctx.workprec(bits):
             try:

@@ -1,8 +1,11 @@
 """What is enclosed."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
-from itertools import pairwise
 from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,42 +83,38 @@ class IntervalProof:
         return total / (self.Omega[1] - self.Omega[0])
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class RegionProof:
-    """What is proven of every point of a rectangle of Omega and gamma.
+    """What is proven of the cells of a grid in Omega and gamma.
 
     Attributes
     ----------
     Omega, gamma : tuple of float
-        Ends.
-    strips : tuple of (float, float, parts)
-        Ascending: gamma's ends, and parts in Omega as of an `IntervalProof`, each for every gamma
-        of the strip.
+        Edges of the cells, ascending; (columns + 1,) and (rows + 1,).
+    cells : (rows, columns) ndarray of str
+        "stable" or "unstable" where that is proven of every point of the closed cell, else
+        "undecided".
+    areas : dict of str to (rows, columns) ndarray
+        How much of each cell, in Omega times gamma, is proven "stable" and "unstable" part by part,
+        and how much is "undecided".
+    nodes : int
+        At how many points P was enclosed.
+    remainder : float
+        Bound on what the polynomial through them leaves out of P's coefficients.
     """
 
-    Omega: tuple[float, float]
-    gamma: tuple[float, float]
-    strips: tuple[tuple[float, float, tuple[tuple[float, float, str], ...]], ...]
+    Omega: tuple[float, ...]
+    gamma: tuple[float, ...]
+    cells: NDArray[np.str_]
+    areas: Mapping[str, NDArray[np.floating[Any]]]
+    nodes: int
+    remainder: float
 
     def share(self, kind: str) -> float:
         """Of the rectangle, of one kind."""
-        total = sum(
-            (b - a) * (high - low)
-            for a, b, parts in self.strips
-            for low, high, found in parts
-            if found == kind
-        )
-        area = (self.Omega[1] - self.Omega[0]) * (self.gamma[1] - self.gamma[0])
-        return total / area
+        return float(self.areas[kind].sum() / sum(area.sum() for area in self.areas.values()))
 
-    def cells(self, columns: int) -> tuple[tuple[str, ...], ...]:
-        """A verdict a cell, strips by equal columns of Omega: what holds at every point of it."""
-        low, high = self.Omega
-        edges = [low + (high - low) * i / columns for i in range(columns + 1)]
-        return tuple(
-            tuple(
-                next((kind for c, d, kind in parts if c <= a and b <= d), "undecided")
-                for a, b in pairwise(edges)
-            )
-            for _, _, parts in self.strips
-        )
+    @property
+    def whole(self) -> float:
+        """Share of the cells that are proven as a whole."""
+        return float(np.mean(self.cells != "undecided"))
