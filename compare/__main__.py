@@ -26,7 +26,7 @@ COMMANDS: tuple[str, ...] = (
 
 # Thousands of systems of a hundred equations each: on two busy cores two threads of linear algebra
 # take seven times as long as one. What the environment says already is left.
-MANY_SMALL = ("vehicle",)
+MANY_SMALL = ("vehicle", "report")
 
 READER_GONE = 141
 """Exit status of a shell's convention: 128 and the number of the signal."""

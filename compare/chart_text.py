@@ -93,7 +93,40 @@ NARROW = 110
 def tongue_table(found: Sequence[Instability], other: str, width: int) -> Table:
     """The tongues, widest first; on a narrow terminal without types, tips and Hsu's values."""
     table = bare_table()
-    damped = other == "gamma" and any(np.isfinite(i.critical_gamma) for i in found)
+    narrow = width < NARROW
+    heads, rows = tongue_cells(found, other, narrow=narrow)
+    for k, head in enumerate(heads):
+        number = k >= (1 if narrow else 3)
+        table.add_column(
+            head,
+            justify="right" if number else "left",
+            no_wrap=head in ("resonance", "crossing"),
+        )
+    for row in rows:
+        table.add_row(*row)
+    return table
+
+
+def tongue_cells(
+    found: Sequence[Instability], other: str, *, narrow: bool = False
+) -> tuple[list[str], list[list[str]]]:
+    """Heads and rows of that table; the first column has names, and types follow if not narrow."""
+    columns = _numbers(found, other, narrow)
+    words = ["resonance", *([] if narrow else ["type", "crossing"])]
+    rows = []
+    for i in found:
+        numbers = [(value(i), digits) for _, value, digits, _ in columns]
+        shown = [f"{v:.{digits}f}" if np.isfinite(v) else "-" for v, digits in numbers]
+        rows.append(
+            [i.resonance.name, i.resonance.type, i.resonance.crossing][: len(words)] + shown
+        )
+    return [*words, *(head for head, *_ in columns)], rows
+
+
+def _numbers(
+    found: Sequence[Instability], other: str, narrow: bool
+) -> list[tuple[str, Callable[[Instability], float], int, bool]]:
+    """Columns of numbers: head, value, digits, and whether a narrow terminal has it."""
     columns: list[tuple[str, Callable[[Instability], float], int, bool]] = [
         ("tip at Omega", lambda i: i.tips[0][0] if i.tips else np.nan, 6, False),
         (f"tip at {other}", lambda i: i.tips[0][1] if i.tips else np.nan, 5, False),
@@ -103,19 +136,7 @@ def tongue_table(found: Sequence[Instability], other: str, width: int) -> Table:
         ("largest T", lambda i: i.T, 5, True),
         ("at Omega", lambda i: i.Omega, 5, True),
     ]
-    if damped:
+    if other == "gamma" and any(np.isfinite(i.critical_gamma) for i in found):
         columns.append(("critical gamma", lambda i: i.critical_gamma, 5, True))
         columns.append(("Hsu's", lambda i: i.critical_gamma_Hsu, 5, False))
-    shown = [c for c in columns if width >= NARROW or c[3]]
-    table.add_column("resonance", no_wrap=True)
-    if width >= NARROW:
-        table.add_column("type")
-        table.add_column("crossing", no_wrap=True)
-    for head, *_ in shown:
-        table.add_column(head, justify="right")
-    for i in found:
-        numbers = [(value(i), digits) for _, value, digits, _ in shown]
-        words = [f"{v:.{digits}f}" if np.isfinite(v) else "-" for v, digits in numbers]
-        kind = [i.resonance.type, i.resonance.crossing] if width >= NARROW else []
-        table.add_row(i.resonance.name, *kind, *words)
-    return table
+    return [c for c in columns if c[3] or not narrow]

@@ -78,14 +78,14 @@ def text(subject: Subject, x: CrossCheck, console: Console) -> None:
     first, second = summary(subject, x)
     say(console, first, STYLES[x.verdict])
     say(console, second, "" if x.routes_agree else "bold red")
-    for who, remark in _remarks(x):
+    for who, remark in remarks(x):
         say(console, f"{who}: {remark}.", "yellow")
     console.print()
-    for title, words in _facts(subject):
+    for title, words in facts(subject):
         say(console, f"{title}: {words}")
     console.print()
     table = _table("", "hill", "floquet")
-    for name, left, right in _compared(x):
+    for name, left, right in compared(x):
         table.add_row(name, left, right)
     show(console, table)
     console.print()
@@ -95,7 +95,7 @@ def text(subject: Subject, x: CrossCheck, console: Console) -> None:
         table.add_row(_complex(complex(mu)), f"{abs(mu):.9f}", f"{phase:+.6f}")
     show(console, table)
     console.print()
-    say(console, _made(subject), "dim")
+    say(console, made_by(subject), "dim")
 
 
 def as_dict(subject: Subject, x: CrossCheck) -> dict[str, Any]:
@@ -126,13 +126,13 @@ def as_json(subject: Subject, x: CrossCheck) -> str:
 
 def markdown(subject: Subject, x: CrossCheck) -> str:
     """Two lines and a table for a report."""
-    lines = [*summary(subject, x), *(f"{who}: {said}." for who, said in _remarks(x)), ""]
-    lines += [f"- {title}: {words}" for title, words in _facts(subject)]
+    lines = [*summary(subject, x), *(f"{who}: {said}." for who, said in remarks(x)), ""]
+    lines += [f"- {title}: {words}" for title, words in facts(subject)]
     lines += ["", "| | hill | floquet |", "| --- | ---: | ---: |"]
-    lines += [f"| {name} | {left} | {right} |" for name, left, right in _compared(x)]
+    lines += [f"| {name} | {left} | {right} |" for name, left, right in compared(x)]
     lines += ["", "| multiplier | modulus |", "| ---: | ---: |"]
     lines += [f"| {_complex(complex(mu))} | {abs(mu):.9f} |" for mu in x.floquet.multipliers]
-    return "\n".join([*lines, "", _made(subject)]) + "\n"
+    return "\n".join([*lines, "", made_by(subject)]) + "\n"
 
 
 def as_csv(subject: Subject, x: CrossCheck) -> str:
@@ -163,19 +163,20 @@ WRITERS: dict[str, Callable[[Subject, CrossCheck], str]] = {
 }
 
 
-def _made(subject: Subject) -> str:
+def made_by(subject: Subject) -> str:
     """What made it; its parameters and forcing stand among the facts."""
     about = {k: v for k, v in subject.about.items() if k not in ("title", "parameters", "forcing")}
     return in_words(about)
 
 
-def _facts(subject: Subject) -> list[tuple[str, str]]:
+def facts(subject: Subject) -> list[tuple[str, str]]:
+    """Its parameters and forcing, and its natural frequencies."""
     given = ", ".join(f"{k} = {v:.9g}" for k, v in (subject.forcing | subject.values).items())
     frequencies = ", ".join(f"omega_({n}) = {_complex(w, 7)}" for n, w in subject.frequencies)
     return [("at", given), ("natural frequencies", frequencies)]
 
 
-def _remarks(x: CrossCheck) -> list[tuple[str, str]]:
+def remarks(x: CrossCheck) -> list[tuple[str, str]]:
     """What is poorly known: of both together, or of one route where the other knows better."""
     if x.remark:
         return [("Note", x.remark)]
@@ -183,7 +184,8 @@ def _remarks(x: CrossCheck) -> list[tuple[str, str]]:
     return [(who, r.remark) for who, r in routes if r.remark]
 
 
-def _compared(x: CrossCheck) -> list[tuple[str, str, str]]:
+def compared(x: CrossCheck) -> list[tuple[str, str, str]]:
+    """What either route says, a line a number."""
     h, f = x.hill, x.floquet
     degree = len(h.polynomial) - 1
     rows = [

@@ -18,7 +18,14 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return made
 
 
-PAGES = ("index.html", "table-1.html", "rows/T1-07.html", "claims.html", "errata.html")
+PAGES = (
+    "index.html",
+    "table-1.html",
+    "rows/T1-07.html",
+    "claims.html",
+    "errata.html",
+    "figures.html",
+)
 
 
 @pytest.mark.parametrize("page", PAGES)

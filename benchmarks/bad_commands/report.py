@@ -235,6 +235,15 @@ def _all() -> dict[str, tuple[list[str], str]]:
     add("report figures gone", [*pages, "--figures", "gone"], "gone")
     add("report no figures", [*pages, "--figures", "folder"], "folder")
     add("report figures twice", [*pages, "--figures", "folder", "--draw"], "--figures")
+    own = ["report", "good.toml", "--output", "pages"]
+    add("report setting of rows", [*pages, "--set", "Omega=2"], "--set")
+    add("report of nothing", ["report", "gone.toml", "--output", "pages"], "gone.toml")
+    for option in ("--draw", "--no-claims"):
+        add(f"report own {option}", [*own, option], option)
+    add("report own figures", [*own, "--figures", "folder"], "--figures")
+    add("report own nothing", [*own, "--set", "nothing=5"], "nothing")
+    add("report own Omega", [*own, "--set", "Omega=0"], "Omega")
+    add("report without Omega", ["report", "noforcing.toml", "--output", "pages"], "Omega")
     add("report workers", [*pages, "--workers", "0"], "workers")
     add("prove row", ["prove", "T1-7"], "T1-7")
     add("prove file and row", ["prove", "good.toml", "T1-01"], "good.toml")

@@ -1,27 +1,38 @@
 """``verify report``: what was found as a set of HTML pages."""
 
 import argparse
+import math
 import sys
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
+from typing import Any
 
+from compare import system_file
+from compare.both_routes import crosscheck
+from compare.commands.asked import settings
 from compare.commands.figures import FORMATS, drawn
+from compare.commands.system import subject_of
 from compare.commands.terminal import stages
 from compare.jobs.workers import mapper
 from compare.output_folder import check_folder, write_folder
-from compare.pages import printed
+from compare.pages import own, printed
+from compare.pages.own_chart import charted, vehicle_charted
 from compare.pages.render import render
 from compare.pages.render import require as require_templates
 from compare.pages.site import Site
+from compare.proofs import prove
 from compare.publications.kincaid import PUBLICATION
 from compare.report.claims.both_routes import RoutesDisagree
 from compare.report.claims.run import JudgedClaim, claims, judge
 from compare.report.figures.catalogue import FIGURES
 from compare.report.figures.compute import tasks
 from compare.report.figures.draw import require as require_pictures
-from compare.report.proofs import prove_row
+from compare.report.proofs import proof_record, prove_row
+from compare.system_file import Described
+from compare.vehicle.study import NO_PULSATION, study
 from compare.verification import verify
+from hill import Vehicle, checks
 
 SUMMARY = "write what was found as a set of HTML pages"
 EPILOG = """\
@@ -34,6 +45,9 @@ examples:
   verify report --output pages --draw --prove --workers 2
                                       draw the figures too, which takes minutes,
                                       and prove every row (extra `proof`)
+  verify report mine.toml --set gamma=0.2 --output pages
+                                      the same of a system of one's own: both
+                                      routes, its chart, its resonances
 
 The pages need no network and no server, and link to each other relatively: the
 directory can be copied, packed and handed on. It is replaced as a whole, and
@@ -48,6 +62,14 @@ Stage = Callable[[str, int, int], None]
 
 def configure(p: argparse.ArgumentParser) -> None:
     """Options of the command."""
+    p.add_argument("file", nargs="?", type=Path, metavar="FILE.toml", help="a system of one's own")
+    p.add_argument(
+        "--set",
+        action="append",
+        default=[],
+        metavar="NAME=VALUE",
+        help="a number of it; repeatable",
+    )
     p.add_argument("--output", type=Path, metavar="DIR", required=True, help="where to write")
     p.add_argument(
         "--figures", type=Path, metavar="DIR", help="take the figures that are there, svg or png"
@@ -68,14 +90,14 @@ def run(options: argparse.Namespace) -> int:
     """Run it; return the exit status."""
     require_templates()
     check_folder(options.output)
-    if options.draw and options.figures:
-        raise ValueError(f"--figures {options.figures}: leave it out, --draw draws them")
-    if options.draw:
-        require_pictures()
+    described = _described(options)
     figures = _found(options.figures) if options.figures else {}
     with stages() as stage:
         try:
-            site, ok = _of_the_report(options, figures, stage)
+            if described is None:
+                site, ok = _of_the_report(options, figures, stage)
+            else:
+                site, ok = _of_ones_own(described, options.prove, stage)
         except RoutesDisagree as error:
             print(f"verify report: {error}", file=sys.stderr)
             return 1
@@ -84,6 +106,69 @@ def run(options: argparse.Namespace) -> int:
         write_folder(options.output, files, site.about)
     print(f"written: {options.output / 'index.html'}, {len(site.pages)} pages")
     return 0 if ok else 1
+
+
+def _described(options: argparse.Namespace) -> Described | None:
+    """The file's system; None of the report. Refuses what is of the other."""
+    if options.draw and options.figures:
+        raise ValueError(f"--figures {options.figures}: leave it out, --draw draws them")
+    if options.draw:
+        require_pictures()
+    if options.file is None:
+        if options.set:
+            raise ValueError(f"--set {options.set[0]}: is for a file's system; rows have their own")
+        return None
+    of_the_report = {
+        "--figures": options.figures,
+        "--draw": options.draw,
+        "--no-claims": options.no_claims,
+    }
+    for name, given in of_the_report.items():
+        if given:
+            raise ValueError(f"{name}: is of the report; leave it out, or {options.file}")
+    found = system_file.with_settings(system_file.read(options.file), settings(options.set))
+    vehicle = isinstance(found.system, Vehicle)
+    for name in ("gamma",) if vehicle else ("Omega", "gamma"):
+        if name not in found.forcing:
+            raise ValueError(f"{name}: has no value; give it in [forcing] or as --set {name}=")
+    if "Omega" in found.forcing:
+        checks.positive("Omega", found.forcing["Omega"])
+    if vehicle and found.forcing["gamma"] == 0.0:
+        raise ValueError(NO_PULSATION)
+    return found
+
+
+def _of_ones_own(found: Described, prove_it: bool, stage: Stage) -> tuple[Site, bool]:
+    forcing: dict[str, Any] = dict(found.forcing)
+    studied, x, proof, edge = None, None, None, None
+    if isinstance(found.system, Vehicle):
+        studied = study(found.system, stage=stage, **forcing)
+        x = studied.operating
+    else:
+        stage("both routes", 0, 0)
+        x = crosscheck(found.system, **forcing)
+    if x is not None:
+        equation = found.system.equation(**forcing)
+        if len(x.hill.z):
+            edge = math.cosh(math.pi * equation.damping / equation.Omega)
+        if prove_it:
+            stage("proof", 0, 0)
+            proof = proof_record(prove(found.system, forcing))
+    if studied is not None:
+        drawn_chart = vehicle_charted(found.title, studied, stage)
+    else:
+        drawn_chart = charted(found, stage)
+    site = own.site(
+        found.title,
+        subject_of(found, "taylor"),
+        x,
+        study=studied,
+        charted=drawn_chart,
+        edge=edge,
+        proof=proof,
+    )
+    agree = studied.routes_agree if studied is not None else x is None or x.routes_agree
+    return site, agree
 
 
 def _of_the_report(

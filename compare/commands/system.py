@@ -5,13 +5,14 @@ from pathlib import Path
 from typing import Any
 
 from compare import system_file
-from compare.both_routes import crosscheck
+from compare.both_routes import Method, crosscheck
 from compare.charts.identity import known_values, type_name
 from compare.commands.asked import settings
 from compare.commands.terminal import deliver, terminal, working
 from compare.console import as_file
 from compare.crosscheck_text import FORMATS, WRITERS, Subject, text
 from compare.output import check_writable
+from compare.system_file import Described
 from hill.system import frequency_names, natural_frequencies, parameter_values
 
 SUMMARY = "cross-check a system of one's own, given in a file"
@@ -86,8 +87,23 @@ def run(options: argparse.Namespace) -> int:
     with working("both routes"):
         forcing: dict[str, Any] = dict(found.forcing)
         result = crosscheck(found.system, **forcing, method=options.method)
+    subject = subject_of(found, options.method)
+    kind = options.format or (options.output.suffix[1:] if options.output else "text")
+    if kind in WRITERS:
+        content = WRITERS[kind](subject, result)
+    elif options.output is None:
+        text(subject, result, terminal())
+        return int(not result.routes_agree)
+    else:
+        content = as_file(lambda console: text(subject, result, console))
+    deliver(content, options.output)
+    return int(not result.routes_agree)
+
+
+def subject_of(found: Described, method: Method) -> Subject:
+    """What a file describes, as a cross-check's text calls it."""
     frequencies = natural_frequencies(found.system)
-    subject = Subject(
+    return Subject(
         title=found.title,
         kind=found.kind,
         values=parameter_values(found.system),
@@ -101,15 +117,5 @@ def run(options: argparse.Namespace) -> int:
         ),
         system=type_name(found.system),
         fingerprint=known_values(found.system),
-        method=options.method,
+        method=method,
     )
-    kind = options.format or (options.output.suffix[1:] if options.output else "text")
-    if kind in WRITERS:
-        content = WRITERS[kind](subject, result)
-    elif options.output is None:
-        text(subject, result, terminal())
-        return int(not result.routes_agree)
-    else:
-        content = as_file(lambda console: text(subject, result, console))
-    deliver(content, options.output)
-    return int(not result.routes_agree)

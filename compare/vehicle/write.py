@@ -74,7 +74,7 @@ def text(title: str, study: Study, console: Console) -> None:
     for line in remarks(study):
         say(console, line)
     console.print()
-    say(console, in_words(_about(study)), "dim")
+    say(console, in_words(about(study)), "dim")
 
 
 def markdown(title: str, study: Study) -> str:
@@ -88,14 +88,14 @@ def markdown(title: str, study: Study) -> str:
     if rows:
         lines += ["| " + " | ".join(heads) + " |", "| --- " * len(heads) + "|"]
         lines += ["| " + " | ".join(row) + " |" for row in rows] + [""]
-    lines += [*(f"- {line}" for line in remarks(study)), "", in_words(_about(study))]
+    lines += [*(f"- {line}" for line in remarks(study)), "", in_words(about(study))]
     return "\n".join(lines) + "\n"
 
 
 def as_json(title: str, study: Study) -> str:
     """Every digit; frequencies in cycles per unit of time."""
     u, loss, x = study.vehicle.units, study.loss, study.operating
-    content = provenance(_about(study)) | {
+    content = provenance(about(study)) | {
         "title": title,
         "summary": list(summary(title, study)),
         "units": {
@@ -131,7 +131,7 @@ def as_json(title: str, study: Study) -> str:
     return json.dumps(content, indent=1, allow_nan=False) + "\n"
 
 
-def _about(study: Study) -> dict[str, Any]:
+def about(study: Study) -> dict[str, Any]:
     """The vehicle, by what it holds, and what was asked of it."""
     u = study.vehicle.units
     return {
