@@ -16,15 +16,17 @@ from compare.__main__ import main
 from compare.commands import report as commands_report
 from compare.output_folder import LIST, check_folder, write_folder
 from compare.pages import mathematics, pictures, printed, printed_row
-from compare.pages.motion import Motion
+from compare.pages.motion import PERIODS, Motion, motion
 from compare.pages.render import render
 from compare.pages.site import Site
 from compare.report.claims.run import judge
 from compare.report.errata import all_errata
 from compare.report.proofs import prove_row
+from compare.report.row import equation
 from compare.report.tables import all_rows
 from compare.verification import Report
 from compare.verification_text import as_json
+from hill import Fourier, HillEquation, PeriodicEquation
 
 SVG = b'<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9"></svg>'
 # Two of the quickest: all of them take half a minute.
@@ -42,7 +44,7 @@ def grown(T: float, periods: int = 200) -> Motion:
     tau = np.linspace(0.0, 8 * np.pi * 2.0, 161)
     q = np.exp(0.5 * T * tau)[:, None] * np.cos(np.outer(tau, [0.5, 1.3, 2.9]))
     largest = np.exp(0.5 * T * 2.0 * np.pi * np.arange(1.0, periods + 1.0))[:, None] * np.ones(3)
-    return Motion(tau, q, 2.0 * np.pi, largest, T, printed_row.COORDINATES)
+    return Motion(tau, q, 2.0 * np.pi, largest, 1e-9, T, printed_row.COORDINATES)
 
 
 @cache
@@ -311,6 +313,17 @@ def test_a_root_is_drawn_where_P_crosses_its_axis() -> None:
     assert sum(c.look == "edge" for c in pictures.closest(roots).curves) == 1
 
 
+def test_a_root_that_is_off_is_where_it_is_decided() -> None:
+    """And not two that happen to be closer to each other; an edge or a pair is in the window."""
+    z = (-0.6, 0.59, 1.4)
+    drawn = pictures.closest(pictures.Roots(tuple(np.poly(z)), z, z))
+    assert [c.look for c in drawn.curves].count("edge") == 1
+    assert sorted(float(m.says.split()[-1]) for m in drawn.marks if m.shape == "dot") == [1.4]
+    z = (-0.6, 0.5 + 0.01j, 0.5 - 0.01j)
+    drawn = pictures.closest(pictures.Roots(tuple(np.poly(z).real), z, z))
+    assert len([m for m in drawn.marks if m.shape == "dot"]) == 2
+
+
 def test_growth_is_drawn_with_the_slope_of_T() -> None:
     m = grown(0.03)
     drawn = pictures.growth(m)
@@ -319,6 +332,34 @@ def test_growth_is_drawn_with_the_slope_of_T() -> None:
     )
     assert np.max(np.abs(law - line)) < 0.11
     assert not [c for c in pictures.growth(grown(0.0)).curves if c.look == "law"]
+
+
+def test_the_motion_of_a_row_grows_as_its_T_says() -> None:
+    row = next(row for row in all_rows() if row.id == "T1-12")
+    T = records()["T1-12"]["floquet"]["T"]
+    found = motion(equation(row, 2), T, printed_row.COORDINATES)
+    assert isinstance(found, Motion)
+    assert found.largest.shape == (PERIODS, 3)
+    assert found.shown == 8
+    assert found.known_to < 1e-6
+    rate = np.polyfit(found.period * np.arange(100.0, 200.0), np.log(found.largest[100:]), 1)[0]
+    # measured 2.1e-3: an extreme of 64 samples a period, and what else moves
+    assert rate == pytest.approx(0.5 * T, rel=4e-3)
+
+
+def test_a_motion_beyond_a_float_is_told() -> None:
+    fast = HillEquation(F=[[-100.0]], G=[[0.0]], gamma=0.0, Omega=1.0)
+    found = motion(fast, 20.0)
+    assert isinstance(found, Motion)
+    assert 0 < len(found.largest) < PERIODS
+    assert "stopped" in found.stopped
+    assert np.all(np.isfinite(found.largest))
+    first_order = PeriodicEquation.first_order(A=Fourier([[-0.1]]), Omega=1.0)
+    decays = motion(first_order, -0.2)
+    assert isinstance(decays, Motion)
+    assert decays.names == ("x_1",)
+    drawn = pictures.growth(decays)
+    assert [c for c in drawn.curves if c.look == "law"]
 
 
 @pytest.mark.parametrize(

@@ -46,9 +46,9 @@ C.mean = [[0.1, 0.4], [-0.4, 0.1]]
 [forcing]
 Omega = 1.3
 [[axis]]
-name = "Omega"
-low = 1.2
-high = 1.4
+name = "eta"
+low = 0.0
+high = 0.1
 count = 9
 [[axis]]
 name = "gamma"

@@ -17,7 +17,9 @@ from compare.commands.terminal import stages
 from compare.jobs.workers import mapper
 from compare.output_folder import check_folder, write_folder
 from compare.pages import own, printed
+from compare.pages.motion import Motion, motion
 from compare.pages.own_chart import charted, vehicle_charted
+from compare.pages.printed_row import COORDINATES
 from compare.pages.render import render
 from compare.pages.render import require as require_templates
 from compare.pages.site import Site
@@ -29,6 +31,7 @@ from compare.report.figures.catalogue import FIGURES
 from compare.report.figures.compute import tasks
 from compare.report.figures.draw import require as require_pictures
 from compare.report.proofs import proof_record, prove_row
+from compare.report.row import equation
 from compare.system_file import Described
 from compare.vehicle.study import NO_PULSATION, study
 from compare.verification import verify
@@ -141,6 +144,7 @@ def _described(options: argparse.Namespace) -> Described | None:
 def _of_ones_own(found: Described, prove_it: bool, stage: Stage) -> tuple[Site, bool]:
     forcing: dict[str, Any] = dict(found.forcing)
     studied, x, proof, edge = None, None, None, None
+    moving: Motion | str = ""
     if isinstance(found.system, Vehicle):
         studied = study(found.system, stage=stage, **forcing)
         x = studied.operating
@@ -148,9 +152,11 @@ def _of_ones_own(found: Described, prove_it: bool, stage: Stage) -> tuple[Site, 
         stage("both routes", 0, 0)
         x = crosscheck(found.system, **forcing)
     if x is not None:
-        equation = found.system.equation(**forcing)
+        own_equation = found.system.equation(**forcing)
         if len(x.hill.z):
-            edge = math.cosh(math.pi * equation.damping / equation.Omega)
+            edge = math.cosh(math.pi * own_equation.damping / own_equation.Omega)
+        stage("motion", 0, 0)
+        moving = motion(own_equation, x.T)
         if prove_it:
             stage("proof", 0, 0)
             proof = proof_record(prove(found.system, forcing))
@@ -164,6 +170,7 @@ def _of_ones_own(found: Described, prove_it: bool, stage: Stage) -> tuple[Site, 
         x,
         study=studied,
         charted=drawn_chart,
+        motion=moving,
         edge=edge,
         proof=proof,
     )
@@ -177,6 +184,11 @@ def _of_the_report(
     rows = PUBLICATION.all_rows()
     counted = _counter(stage, "rows", len(rows))
     report = verify(publication=PUBLICATION, workers=options.workers, progress=counted)
+    motions = {}
+    for done, outcome in enumerate(report.outcomes):
+        stage("motions", done, len(rows))
+        own_equation = equation(outcome.row, outcome.modes)
+        motions[outcome.row.id] = motion(own_equation, outcome.floquet.T, COORDINATES)
     proofs = []
     with mapper(options.workers) as each:
         if options.prove:
@@ -193,7 +205,7 @@ def _of_the_report(
     judged: tuple[JudgedClaim, ...] = ()
     if not options.no_claims:
         judged = judge(progress=_counter(stage, "claims", len(claims())))
-    site = printed.site(report, claims=judged, proofs=proofs, figures=figures)
+    site = printed.site(report, motions=motions, claims=judged, proofs=proofs, figures=figures)
     return site, report.ok and all(one.as_expected for one in judged)
 
 

@@ -61,8 +61,8 @@ class OwnIndex:
     multipliers : tuple of (complex, complex)
         By Hill and by Floquet.
     pictures, motion : tuple of Picture
-    no_motion : str
-        Why there is none.
+    moves : Motion or str
+        What `motion` is drawn of, or why nothing is.
     proof : mapping or None
     data : tuple of str
         Files with its numbers.
@@ -77,7 +77,7 @@ class OwnIndex:
     multipliers: tuple[tuple[complex, complex], ...]
     pictures: tuple[Picture, ...]
     motion: tuple[Picture, ...]
-    no_motion: str
+    moves: Motion | str
     proof: Mapping[str, Any] | None
     data: tuple[str, ...]
 
@@ -187,8 +187,8 @@ def _index(
     common: dict[str, Any] = {
         "proof": proof,
         "data": data,
-        "motion": _moving(motion) if isinstance(motion, Motion) else (),
-        "no_motion": "" if isinstance(motion, Motion) else motion,
+        "motion": pictures.of_motion(motion),
+        "moves": motion,
     }
     if x is None:
         return OwnIndex("", told, (), tuple(known), None, None, (), (), **common)
@@ -220,10 +220,6 @@ def _drawn(x: CrossCheck, edge: float | None) -> tuple[Picture, ...]:
         edge=edge,
     )
     return circle, pictures.whole(roots), pictures.closest(roots)
-
-
-def _moving(motion: Motion) -> tuple[Picture, ...]:
-    return pictures.history(motion), pictures.growth(motion)
 
 
 def _resonances(study: Study) -> Resonances:

@@ -14,14 +14,14 @@ from compare.pages.motion import Motion
 
 Float = NDArray[np.floating[Any]]
 
-FARTHEST = 3.0
+FARTHEST = 5.0
 """Moduli beyond it are marked at the picture's edge."""
 
 POINTS = 161
 """Of a curve: one a picture's 2 dots."""
 
 # A window on the closest roots is so many times as wide as they are apart, and never narrower.
-AROUND, NARROWEST = 4.0, 2e-6
+AROUND, NARROWEST = 1.5, 2e-6
 
 COLOURS = ("a", "b", "c", "d", "e", "f")
 """Classes of the style sheet, for a curve a coordinate."""
@@ -56,6 +56,9 @@ def multipliers(hill: Sequence[complex], floquet: Sequence[complex]) -> Picture:
     marks += [Mark(*at(mu), "ring", "b", _short(mu)) for mu in hill]
     x, y = at(1.0)
     labels = [Label(x + 6, y + 14, "1"), Label(centre + 8, at(1j)[1] - 5, "i")]
+    for mu in (mu for mu in floquet if abs(mu) > reach and mu.imag >= 0.0):
+        x, y = at(mu)
+        labels.append(Label(x, y - 9.0 if y > HEIGHT / 2 else y + 18.0, f"{abs(mu):.3g}"))
     outside = sum(abs(mu) > 1.0 + 1e-9 for mu in floquet)
     beyond = sum(abs(mu) > reach for mu in floquet)
     description = (
@@ -104,23 +107,30 @@ def whole(r: Roots) -> Picture:
 
 
 def closest(r: Roots) -> Picture:
-    """P where it is decided: about the roots that are nearest to each other or to an edge."""
-    middle, apart = _closest(r)
+    """P where it is decided: about a root that is off, or else the closest to be so."""
+    middle, apart = _deciding(r)
     half = max(AROUND * apart, NARROWEST)
     return _of_roots(r, middle - half, middle + half, "closest", "P(z) where it is decided")
 
 
-def _closest(r: Roots) -> tuple[float, float]:
-    """The middle of the closest two of the roots and edges, and how far apart they are."""
-    found = []
+def _deciding(r: Roots) -> tuple[float, float]:
+    """The middle of two points, and how far apart they are.
+
+    A root beyond an edge and that edge, or a pair, the farthest off; or if there is none, those of
+    the roots and edges that are closest to each other.
+    """
     real = sorted(z.real for z in r.floquet if z.imag == 0.0)
-    for one, other in itertools.pairwise(real):
-        found.append((0.5 * (one + other), other - one))
-    for root in real:
-        for edge in (-r.edge, r.edge):
-            found.append((0.5 * (root + edge), abs(root - edge)))
-    found += [(z.real, 2.0 * abs(z.imag)) for z in r.floquet if z.imag]
-    return min(found, key=lambda pair: pair[1], default=(0.0, 1.0))
+    off = [
+        (0.5 * (root + math.copysign(r.edge, root)), abs(root) - r.edge)
+        for root in real
+        if abs(root) > r.edge
+    ]
+    off += [(z.real, 2.0 * abs(z.imag)) for z in r.floquet if z.imag]
+    if off:
+        return max(off, key=lambda pair: pair[1])
+    points = [-r.edge, *real, r.edge]
+    near = [(0.5 * (one + other), other - one) for one, other in itertools.pairwise(points)]
+    return min(near, key=lambda pair: pair[1])
 
 
 def _of_roots(r: Roots, low: float, high: float, name: str, title: str) -> Picture:
@@ -168,6 +178,11 @@ def _of_roots(r: Roots, low: float, high: float, name: str, title: str) -> Pictu
     )
 
 
+def of_motion(m: Motion | str) -> tuple[Picture, ...]:
+    """The first periods and all of them; nothing where there is no motion."""
+    return (history(m), growth(m)) if isinstance(m, Motion) else ()
+
+
 def history(m: Motion) -> Picture:
     """The coordinates over the first periods."""
     chosen = m.tau <= m.shown * m.period * (1.0 + 1e-12)
@@ -189,20 +204,18 @@ def history(m: Motion) -> Picture:
 def growth(m: Motion) -> Picture:
     """The largest excursion in each period, on a logarithmic scale, and exp(T tau/2)."""
     size = np.log10(np.maximum(m.largest, np.finfo(float).tiny))
-    known = size[np.isfinite(size)]
     periods = np.arange(1.0, len(m.largest) + 1.0)
-    law = 0.5 * m.T * m.period * periods * math.log10(math.e)
-    law = law - law[-1] + float(np.max(size[-1])) if np.all(np.isfinite(size[-1])) else law
-    low, high = _whole_decades(float(known.min()), float(known.max()))
+    law = 0.5 * m.T * m.period * (periods - periods[-1]) * math.log10(math.e) + size[-1].max()
+    low, high = _whole_decades(float(size.min()), float(size.max()))
     frame = Frame(0.0, float(len(periods)), low, high)
     decades = [(v, _power(v)) for v in ticks(low, high) if v == round(v)]
     curves, labels = frame.axes("periods of the thrust", "largest |q|", decades)
     lines = [frame.curve(periods, size[:, k], _colour(k)) for k in range(size.shape[1])]
     legend = list(_coordinates(m))
-    if m.T > 0.0:
+    if m.T:
         lines.insert(0, frame.curve(periods, law, "law"))
         legend.append(Key("law", "line", "exp(Tτ/2)"))
-    by = float(known.max() - known.min())
+    by = float(np.ptp(size))
     return Picture(
         "growth",
         f"{len(periods)} periods",

@@ -142,7 +142,7 @@ class Figures:
 def site(
     report: Report,
     *,
-    motions: Mapping[str, Motion] | None = None,
+    motions: Mapping[str, Motion | str] | None = None,
     claims: Sequence[JudgedClaim] = (),
     proofs: Iterable[RowProof] = (),
     figures: Mapping[str, bytes] | None = None,
@@ -183,7 +183,7 @@ def site(
         content_of_row = row_page(
             report,
             o,
-            (motions or {}).get(o.row.id),
+            (motions or {}).get(o.row.id, ""),
             tuple(e for e in entries if e.erratum.row == o.row.id),
             by_row.get(o.row.id),
             (ids[k - 1] if k else "", ids[k + 1] if k + 1 < len(ids) else ""),

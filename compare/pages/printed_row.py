@@ -43,6 +43,8 @@ class RowPage:
     multipliers : tuple of (complex, complex)
         By Hill and by Floquet.
     pictures, motion : tuple of Picture
+    moves : Motion or str
+        What `motion` is drawn of, or why nothing is.
     errata : tuple of Entry
     proof : mapping or None
         What JSON of `verify prove` holds of it.
@@ -56,6 +58,7 @@ class RowPage:
     multipliers: tuple[tuple[complex, complex], ...]
     pictures: tuple[Picture, ...]
     motion: tuple[Picture, ...]
+    moves: Motion | str
     errata: tuple[Entry, ...]
     proof: Mapping[str, Any] | None
     before: str
@@ -65,7 +68,7 @@ class RowPage:
 def row_page(
     report: Report,
     o: Outcome,
-    motion: Motion | None,
+    motion: Motion | str,
     errata: tuple[Entry, ...],
     proof: RowProof | None,
     beside: tuple[str, str],
@@ -98,7 +101,8 @@ def row_page(
             pictures.whole(roots),
             pictures.closest(roots),
         ),
-        motion=(pictures.history(motion), pictures.growth(motion)) if motion else (),
+        motion=pictures.of_motion(motion),
+        moves=motion,
         errata=errata,
         proof=proof_record(proof) if proof else None,
         before=beside[0],
