@@ -1,6 +1,7 @@
 """Names and numbers as mathematics, for pictures."""
 
 import re
+import unicodedata
 
 import numpy as np
 
@@ -45,3 +46,23 @@ def of_resonance(resonance: Resonance) -> str:
 def of_value(value: float) -> str:
     """A number, infinity among them."""
     return r"$\infty$" if value == np.inf else f"{value:g}"
+
+
+def in_letters(name: str) -> str:
+    """A parameter's name in Unicode's letters, for where there is no mathematics: "T₀", "K_θ"."""
+    base, _, below = re.sub(r"^([A-Za-z])(\d+)$", r"\1_\2", name).partition("_")
+    if not (len(base) == 1 or base in GREEK):
+        return name.replace("_", " ")
+    if below.isdecimal() and below.isascii():
+        return _greek(base) + "".join(chr(0x2080 + int(digit)) for digit in below)
+    return f"{_greek(base)}_{_greek(below)}" if below else _greek(base)
+
+
+def _greek(word: str) -> str:
+    if word not in GREEK:
+        return word
+    size = "SMALL" if word[0].islower() else "CAPITAL"
+    # Unicode spells it in its own way
+    return unicodedata.lookup(
+        f"GREEK {size} LETTER {word.lower().replace('lambda', 'lamda').upper()}"
+    )

@@ -44,7 +44,8 @@ class Browser:
 
     def complaints(self) -> list[str]:
         """Errors and warnings of the console since the last time, failed requests among them."""
-        return [line["message"] for line in self.driver.get_log("browser")]
+        log = self.driver.get_log("browser")
+        return [line["message"] for line in log if line["level"] in ("SEVERE", "WARNING")]
 
     def look(self, *, width: int = 1280, height: int = 900, dark: bool = False) -> None:
         """The screen, in CSS pixels, and the reader's colour scheme."""

@@ -186,6 +186,13 @@ def _all() -> dict[str, tuple[list[str], str]]:
     add("show nothing", [*CHART, "--show", "nothing"])
     three = [*CHART, "--also", "T0", "1", "2", "3"]
     add("picture of three", [*three, "--output", "a.png"], "output")
+    one = [*CHART[:6], "--set", "gamma=0.1", "--output", "a.html"]
+    add("page of one", one, "axes")
+    more = ["--also", "T0", "1", "2", "3", "--also", "eta", "0", "1", "3"]
+    five = [*CHART, *more, "--also", "g", "0", "1", "3", "--output", "a.html"]
+    add("page of five", five, "axes")
+    add("page of disagreement", [*CHART, "--show", "disagreement", "--output", "a.html"], "show")
+    add("axis beside twice", [*three, "--also", "T0", "1", "2", "3"], "T0")
     add("tongues of three", [*three, "--tongues", "a.csv"], "tongues")
     no_Omega = ["chart", "--x", "T0", "1", "2", "3", *CHART[6:], "--set", "Omega=1"]
     add("tongues without Omega", [*no_Omega, "--tongues", "a.csv"], "tongues")

@@ -4,6 +4,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -152,6 +153,28 @@ class Chart:
         Takes longer than T itself: about 20 microseconds a point that is not shown to be stable.
         """
         return self._T_error
+
+    def save(self, path: str | Path, *, title: str = "") -> None:
+        """Write the chart to a file, whole or not at all.
+
+        Parameters
+        ----------
+        path : path
+            Its suffix says as what: .html a page to explore, .png and .svg a picture, .npz, .json
+            and .csv numbers. On a chart of Omega and one other parameter pages, pictures and .json
+            have the tongues.
+        title : str, optional
+            What the system is called, on pages and pictures.
+
+        Raises
+        ------
+        ValueError
+            Another suffix; the file cannot be written; too many axes for a picture or a page; what
+            draws it is not installed.
+        """
+        from compare.chart_saving import save
+
+        save(self, Path(path), title)
 
     @cached_property
     def _verdict(self) -> NDArray[np.str_]:

@@ -3,12 +3,12 @@
 import argparse
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
 from compare import chart_files
-from compare.chart_picture import NO_PICTURES, QUANTITIES, Mark, picture
+from compare.chart_picture import QUANTITIES, Mark
+from compare.chart_saving import PICTURES, check_saved, content, edges_of, has_tongues
 from compare.chart_text import describe, ended, told, tongue_table
 from compare.charts.compute import chart
 from compare.charts.nodes import ROUTES
@@ -16,10 +16,10 @@ from compare.charts.result import Chart
 from compare.commands import asked
 from compare.commands.terminal import stages, terminal
 from compare.console import say, show
-from compare.edges.curves import Curve, boundaries
+from compare.edges.curves import Curve
 from compare.edges.instabilities import Instability, instabilities
 from compare.edges.interpolated import axes_of
-from compare.edges.on_chart import ORDERS, tongues
+from compare.edges.on_chart import ORDERS
 from compare.edges.tongue import Tongue
 from compare.edges.unnamed import Region, unnamed
 from compare.jobs.cluster import connect
@@ -36,7 +36,11 @@ examples:
   verify chart --x Omega 0.35 6 1000 --y gamma 0 0.5 1000 --set eta=0.01 \\
     --tongues tongues.csv
   verify chart mine.toml --workers 2 --resume nodes.dat --output chart.npz
+  verify chart --x Omega 0.9 1.3 200 --y gamma 0 0.3 150 --also T0 5 20 16 \\
+    --route floquet --output explore.html
 
+A page (.html) evaluates the chart by itself, without a network: a map, sliders
+for the third and fourth axes, T, the verdict and the multipliers of any point.
 A chart of Omega and one other parameter has tongues: --tongues lists them, and
 a picture draws and lists them. On a picture of two others the boundaries are
 drawn.
@@ -65,8 +69,12 @@ takes, of anybody's system, and may have the axes too:
 exit status: 0 done; 1 the routes disagree beyond the chart's error; 2 wrong
 usage or input."""
 
-PICTURES = (".png", ".svg")
-SUFFIXES = (*PICTURES, ".npz", ".json", ".csv")
+
+BESIDE: dict[str, Any] = {
+    "action": "append",
+    "default": [],
+    "help": "a further axis, repeatable: a slider of a page (.html); or for .npz",
+}
 
 
 def configure(p: argparse.ArgumentParser) -> None:
@@ -77,9 +85,11 @@ def configure(p: argparse.ArgumentParser) -> None:
             f"--{axis}",
             nargs=4,
             metavar=("NAME", "LOW", "HIGH", "COUNT"),
-            help="an axis" if axis != "also" else "a third axis (for .npz)",
+            **(BESIDE if axis == "also" else {"help": "an axis"}),
         )
-    p.add_argument("--output", type=Path, metavar="FILE", help="chart.png, .svg, .npz, .json, .csv")
+    p.add_argument(
+        "--output", type=Path, metavar="FILE", help="chart.png, .svg, .html, .npz, .json, .csv"
+    )
     p.add_argument(
         "--show",
         choices=QUANTITIES,
@@ -105,11 +115,11 @@ def configure(p: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Run it; return the exit status."""
-    typed = [axis for axis in (options.x, options.y, options.also) if axis]
+    typed = [axis for axis in (options.x, options.y, *options.also) if axis]
     wanted = asked.with_axes(asked.asked(options), typed, options.set)
     if not wanted.axes and options.file:
         raise ValueError(f"{options.file}: has no [[axis]]; write axes there, or give --x and --y")
-    _check_files(options)
+    _check_files(options, len(wanted.axes))
     _check_wanted(options, [name for name, *_ in wanted.axes])
     suffix = options.output.suffix if options.output else ""
     with stages() as stage, _workers(options) as workers:
@@ -128,8 +138,9 @@ def run(options: argparse.Namespace) -> int:
         edges, found, nameless = _edges(result, options, suffix, stage)
         if options.output is not None:
             stage("writing", 0, 0)
-            title = wanted.title
-            write_whole(options.output, _content(result, suffix, edges, found, options.show, title))
+            words: dict[str, Any] = {"show": options.show, "title": wanted.title}
+            made = content(result, suffix, edges, found, marks=_printed(result), **words)
+            write_whole(options.output, made)
         if options.tongues is not None:
             other = axes_of(result)[1].name
             write_whole(options.tongues, chart_files.tongues_csv(result, found, other))
@@ -148,30 +159,27 @@ def _edges(
     result: Chart, options: argparse.Namespace, suffix: str, stage: Callable[[str, int, int], None]
 ) -> tuple[Sequence[Tongue | Curve], tuple[Instability, ...], tuple[Region, ...]]:
     """Lines to draw, the instabilities that they are of, and what has no name."""
-    two = len(result.axes) == 2
-    has_tongues = two and "Omega" in result.scenario.names
-    drawn = suffix in PICTURES and options.show == "T"
-    if options.tongues or (has_tongues and (drawn or suffix == ".json")):
-        order = checks.count("order", options.order, least=1)
-        own = tongues(result, order, progress=lambda k, n: stage("resonances followed", k, n))
-        stage("their widths", 0, 0)
-        return own, instabilities(result, own), unnamed(result, own)
-    if drawn and two:
-        stage("boundaries", 0, 0)
-        return boundaries(result), (), ()
-    return (), (), ()
+    if options.show != "T" and not options.tongues:
+        return (), (), ()
+    order = checks.count("order", options.order, least=1)
+    # a table of tongues has them, whatever else is written
+    kind = ".json" if options.tongues else suffix
+    edges = edges_of(result, kind, order, stage)
+    if not has_tongues(result, kind):
+        return edges, (), ()
+    own = tuple(edge for edge in edges if isinstance(edge, Tongue))
+    stage("their widths", 0, 0)
+    return edges, instabilities(result, own), unnamed(result, own)
 
 
-def _check_files(options: argparse.Namespace) -> None:
+def _check_files(options: argparse.Namespace, axes: int) -> None:
     """Refuse what could not be written, before anything is computed."""
-    for name, path, allowed in (
-        ("output", options.output, SUFFIXES),
-        ("tongues", options.tongues, (".csv",)),
-        ("resume", options.resume, None),
-    ):
+    if options.output is not None:
+        check_saved(options.output, axes)
+    if options.tongues is not None and options.tongues.suffix != ".csv":
+        raise ValueError(f"tongues = {str(options.tongues)!r}: must end in .csv")
+    for name, path in (("tongues", options.tongues), ("resume", options.resume)):
         if path is not None:
-            if allowed and path.suffix not in allowed:
-                raise ValueError(f"{name} = {str(path)!r}: must end in {', '.join(allowed)}")
             check_writable(path, name)
     check_apart(output=options.output, tongues=options.tongues, resume=options.resume)
 
@@ -184,10 +192,6 @@ def _check_wanted(options: argparse.Namespace, axes: list[str]) -> None:
         raise ValueError(f"--show {options.show}: needs a picture, --output NAME.png or .svg")
     if options.show == "disagreement" and options.route != "both":
         raise ValueError(f"--show disagreement: needs --route both, not {options.route}")
-    if drawn and len(axes) != 2:
-        raise ValueError(f"output = {str(options.output)!r}: a picture needs two axes")
-    if drawn and find_spec("matplotlib") is None:
-        raise ValueError(NO_PICTURES)
     if options.tongues is not None and (len(axes) != 2 or "Omega" not in axes):
         raise ValueError(f"--tongues {options.tongues}: needs a chart of Omega and one other")
 
@@ -199,24 +203,6 @@ def _workers(options: argparse.Namespace) -> Iterator[Any]:
     else:
         with connect(options.cluster) as cluster:
             yield cluster
-
-
-def _content(
-    result: Chart,
-    suffix: str,
-    edges: Sequence[Tongue | Curve],
-    found: Sequence[Instability],
-    show: str,
-    title: str,
-) -> bytes:
-    if suffix == ".npz":
-        return chart_files.npz(result)
-    if suffix == ".csv":
-        return chart_files.as_csv(result)
-    if suffix == ".json":
-        return chart_files.as_json(result, found)
-    marks = _printed(result)
-    return picture(result, edges, suffix[1:], show, title=title, marks=marks, marks_label="printed")
 
 
 def _printed(result: Chart) -> list[Mark]:

@@ -154,7 +154,7 @@ def _check_files(
             check_writable(path, name)
     check_apart(output=options.output, chart=options.chart)
     if options.chart is not None:
-        if find_spec("matplotlib") is None:
+        if options.chart.suffix != ".html" and find_spec("matplotlib") is None:
             raise ValueError(NO_PICTURES)
         if forcing["gamma"] == 0.0:
             raise ValueError(NO_PULSATION)

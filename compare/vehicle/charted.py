@@ -12,11 +12,12 @@ from compare.charts.result import Chart
 from compare.charts.scenario import scenario
 from compare.edges.on_chart import tongues
 from compare.edges.tongue import Tongue
+from compare.explorer.page import check_explorable, explorer_page
 from compare.vehicle.outlines import outlines
 from compare.vehicle.study import Study
 from hill import Vehicle
 
-PICTURES = (".png", ".svg")
+PICTURES = (".png", ".svg", ".html")
 
 # Points of the picture's axes: as many as it has dots, about.
 COUNTS = (600, 300)
@@ -42,6 +43,8 @@ def check_charted(vehicle: Vehicle, gamma: float, eta: float, path: Path) -> Non
     """Refuse a chart that there will be none of, before anything is computed."""
     if path.suffix not in PICTURES:
         raise ValueError(f"--chart {path}: must end in {' or '.join(PICTURES)}")
+    if path.suffix == ".html":
+        check_explorable(2)
     system, forcing = _as_charts_have_it(vehicle, eta)
     scale = float(abs(vehicle.natural_frequencies()[-1]))
     try:
@@ -96,11 +99,13 @@ def _range(study: Study, top: float) -> tuple[float, float]:
 
 
 def drawn(title: str, study: Study, kind: str, stage: Callable[[str, int, int], Any]) -> bytes:
-    """The picture as PNG or SVG, the tongues by their names, the operating point marked."""
+    """The chart as PNG, SVG or a page, the tongues by their names; pictures mark where it runs."""
     made, edges = charted(study, stage)
     stage("picture", 0, 0)
     if made.route == "floquet":
         title = f"{title}: T by the time domain, tongues by Hill's matrix"
+    if kind == "html":
+        return explorer_page(made, title=title, tongues=edges).encode()
     marks = []
     if study.operating is not None and study.Omega is not None:
         marks.append(Mark(study.Omega, abs(study.gamma), study.operating.verdict == "unstable"))
