@@ -86,6 +86,11 @@ class CrossCheck:
         """Bound on the error of `T`."""
         return _better(self.hill, self.floquet).T_error
 
+    def _repr_html_(self) -> str:
+        from compare.notebook import of_crosscheck
+
+        return of_crosscheck(self)
+
 
 def crosscheck(
     what: Any,

@@ -45,6 +45,11 @@ class Report:
         """Counts of every kind of outcome."""
         return self.publication.rendering.count(self.outcomes)
 
+    def _repr_html_(self) -> str:
+        from compare.notebook import of_report
+
+        return of_report(self)
+
 
 def verify(
     tables: Iterable[int] | None = None,

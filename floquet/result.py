@@ -6,6 +6,7 @@ import numpy as np
 
 from floquet.arrays import Complex, Float
 from floquet.growth import Verdict
+from hill.notebook import of_route
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,3 +87,6 @@ class Monodromy:
     def stable(self) -> bool:
         """Whether the system is shown to be stable."""
         return self.verdict == "stable"
+
+    def _repr_html_(self) -> str:
+        return of_route(f"By one period ({self.method})", self)

@@ -176,6 +176,11 @@ class Chart:
 
         save(self, Path(path), title)
 
+    def _repr_html_(self) -> str:
+        from compare.notebook import of_chart
+
+        return of_chart(self)
+
     @cached_property
     def _verdict(self) -> NDArray[np.str_]:
         result = np.full(self.T.T.shape, "undecided")

@@ -13,6 +13,7 @@ from hill.determinant.on_circle import judged
 from hill.determinant.roots import WELL_KNOWN, discs, improved, larger_of_pair, monic_in_y
 from hill.equation import HillEquation
 from hill.multipliers import Multipliers, in_discs, multipliers
+from hill.notebook import of_route
 from hill.periodic import PeriodicEquation
 from hill.precision import remark
 from hill.stability import Verdict, stability_of
@@ -88,6 +89,9 @@ class Characteristic:
     def stable(self) -> bool:
         """Whether the system is shown to be stable."""
         return self.verdict == "stable"
+
+    def _repr_html_(self) -> str:
+        return of_route("By Hill's determinant", self)
 
 
 def of_z(
