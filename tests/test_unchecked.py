@@ -5,7 +5,7 @@ import pytest
 from systems import random_system
 
 from floquet import monodromy
-from floquet.unchecked import unchecked_growth, unchecked_polynomials
+from floquet.unchecked import TOGETHER, unchecked_growth, unchecked_polynomials
 from hill import HillEquation
 
 # sizes 1 to 8, with and without damping, harmonics and growth
@@ -22,9 +22,13 @@ def test_the_same_P_as_with_the_check(seed: int) -> None:
     assert np.max(np.abs(found - checked.polynomial)) <= checked.error + 1e-12 * size
 
 
-def test_equations_with_one_G_go_together_and_come_back_in_order() -> None:
+@pytest.mark.parametrize("count", [TOGETHER - 1, TOGETHER, 3 * TOGETHER])
+def test_equations_come_back_in_order(count: int) -> None:
     F, G = np.array([[1.0, 0.3], [-0.2, 4.0]]), np.array([[0.5, 0.1], [0.2, -0.4]])
-    equations = [HillEquation(F, G, 0.4, Omega, 0.02) for Omega in (2.1, 0.7, 3.0)]
+    equations = [
+        HillEquation(F, G + 0.1 * k * np.eye(2), 0.4, 0.7 + (1.7 * k) % 2.3, 0.02)
+        for k in range(count)
+    ]
     together = unchecked_polynomials(equations)
     for equation, found in zip(equations, together, strict=True):
         checked = monodromy(equation)
