@@ -1,7 +1,7 @@
 """Pages of a system of one's own: the numbers of `verify system`, whatever a file calls itself."""
 
 import json
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +11,8 @@ from commands import refusal
 from pages_html import Parsed
 
 from compare.__main__ import main
+from compare.commands import report as commands_report
+from compare.vehicle.study import study
 
 EVIL = '<script>document.title="x"</script> & "co" <img src=x onerror=alert(1)>'
 SYSTEM = f"""
@@ -91,7 +93,10 @@ def general(place: Path) -> Path:
 
 
 @pytest.fixture
-def vehicle(place: Path) -> Path:
+def vehicle(place: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """With less of everything: the whole study has tests of its own."""
+    less = partial(study, closely=3, witness=1, more=3)
+    monkeypatch.setattr(commands_report, "study", less)
     return written(place, "vehicle", VEHICLE.read_text())
 
 

@@ -20,6 +20,10 @@ SAMPLES = 64
 turn: what lies between two of them is larger by 1/16 at most."""
 
 
+MOST_DRAWN = 6
+"""Coordinates that are drawn, the largest ones: as many as colours can be told apart."""
+
+
 @dataclass(frozen=True, eq=False)
 class Motion:
     """Coordinates in time, from 1 each and at rest.
@@ -37,7 +41,9 @@ class Motion:
     T : float
         The characteristic argument, for comparison.
     names : tuple of str
-        Of the coordinates.
+        Of the coordinates that are drawn, `MOST_DRAWN` of them at most.
+    of : int
+        How many there are.
     stopped : str
         Why there are fewer periods than were asked for; empty where there are not.
     """
@@ -49,6 +55,7 @@ class Motion:
     known_to: float
     T: float
     names: tuple[str, ...]
+    of: int
     stopped: str = ""
 
     @property
@@ -81,15 +88,18 @@ def motion(equation: Any, T: float, names: tuple[str, ...] = ()) -> Motion | str
         return f"No motion is shown: {why}."
     blocks = (s.periods, s.samples, -1)
     largest = np.abs(s.q[1:]).reshape(blocks).max(axis=1)
+    drawn = np.sort(np.argsort(-np.max(largest, axis=0), kind="stable")[:MOST_DRAWN])
+    own = names or tuple(f"{'x' if first_order else 'q'}_{k}" for k in range(1, n + 1))
     errors = s.errors[1:].reshape(blocks).max(axis=(1, 2))
     shown = min(SHOWN, s.periods) * s.samples + 1
     return Motion(
         tau=s.tau[:shown],
-        q=s.q[:shown],
+        q=s.q[:shown, drawn],
         period=equation.period,
-        largest=largest,
+        largest=largest[:, drawn],
         known_to=float(np.max(errors / np.max(largest, axis=1))),
         T=T,
-        names=names or tuple(f"{'x' if first_order else 'q'}_{k}" for k in range(1, n + 1)),
+        names=tuple(own[k] for k in drawn),
+        of=n,
         stopped=s.stopped,
     )

@@ -22,6 +22,9 @@ from compare.vehicle.words import summary as vehicle_summary
 from compare.vehicle.write import about as vehicle_about
 from compare.vehicle.write import as_json as vehicle_json
 
+DRAWABLE = 1e12
+"""P's largest coefficient: beyond it a picture of P is a line up the sheet."""
+
 
 @dataclass(frozen=True, eq=False)
 class Charted:
@@ -211,7 +214,7 @@ def _index(
 def _drawn(x: CrossCheck, edge: float | None) -> tuple[Picture, ...]:
     one, other = (tuple(map(complex, r.multipliers)) for r in (x.hill, x.floquet))
     circle = pictures.multipliers(one, other)
-    if edge is None or not len(x.floquet.z) or not np.all(np.isfinite(x.floquet.polynomial)):
+    if edge is None or not np.max(np.abs(x.floquet.polynomial)) < DRAWABLE:
         return (circle,)
     roots = pictures.Roots(
         polynomial=tuple(map(float, x.floquet.polynomial)),

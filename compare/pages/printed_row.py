@@ -12,6 +12,7 @@ from compare.report.errata_tables import Entry
 from compare.report.match import order
 from compare.report.proofs import RowProof
 from compare.report.proofs import record as proof_record
+from compare.report.render import decimal
 from compare.report.row import Outcome
 from compare.verification import Report
 
@@ -36,10 +37,16 @@ class RowPage:
     ----------
     record : mapping
         What JSON holds of it.
+    printed : mapping
+        Its Omega and T as they stand on the page.
+    held : tuple of (str, number)
+        The parameters of its run.
+    cause : str
+        Why print differs, in a sentence.
+    as_run_T : str
+        To as many digits as the report prints.
     z_order : mapping
-        Of "printed", "as_run", "hill" and "floquet": which z stands first, second, ...
-    errors : tuple of float
-        Bounds on P's coefficients, of both routes together.
+        Of "as_run", "hill" and "floquet": which z is the first that is printed, the second, ...
     multipliers : tuple of (complex, complex)
         By Hill and by Floquet.
     pictures, motion : tuple of Picture
@@ -48,10 +55,13 @@ class RowPage:
     errata : tuple of Entry
     proof : mapping or None
         What JSON of `verify prove` holds of it.
+    before, after : str
+        Ids of the rows beside it, or empty.
     """
 
     record: Mapping[str, Any]
-    printed: Mapping[str, Any]
+    printed: Mapping[str, str]
+    as_run_T: str
     held: tuple[tuple[str, Any], ...]
     cause: str
     z_order: Mapping[str, tuple[int, ...]]
@@ -88,7 +98,8 @@ def row_page(
     same = len(first) == len(o.hill.z)
     return RowPage(
         record=report.publication.rendering.record(o),
-        printed={"Omega": row.Omega_printed, "T": row.T_printed, "z": row.z_printed},
+        printed={"Omega": row.Omega_printed, "T": row.T_printed},
+        as_run_T=decimal(o.as_run_T),
         held=given,
         cause=CAUSES[o.cause],
         z_order={
