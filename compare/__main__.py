@@ -16,6 +16,7 @@ COMMANDS: tuple[str, ...] = (
     "vehicle",
     "chart",
     "sensitivity",
+    "simulate",
     "listing",
     "figures",
     "claims",

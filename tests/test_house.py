@@ -168,6 +168,7 @@ def may_print(name: str) -> bool:
                 "compare/console",
                 "compare/verification_text",
                 "compare/crosscheck_text",
+                "compare/simulation/text",
                 "compare/vehicle/write",
                 "compare/commands/",
             )

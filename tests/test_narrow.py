@@ -7,6 +7,7 @@ import pytest
 from rich.console import Console
 
 import compare.commands.chart as chart_command
+import compare.commands.simulate as simulate_command
 import compare.commands.system as system_command
 import compare.commands.vehicle as vehicle_command
 from compare.__main__ import COMMANDS, main
@@ -31,7 +32,7 @@ Omega = 2.0
 def narrow(monkeypatch: pytest.MonkeyPatch) -> io.StringIO:
     """What a terminal of 80 columns is given."""
     written = io.StringIO()
-    for command in (chart_command, system_command, vehicle_command):
+    for command in (chart_command, simulate_command, system_command, vehicle_command):
         console = Console(
             file=written,
             width=WIDTH,
@@ -77,6 +78,7 @@ CASES = {
         ],
         "2 omega_([/a]) ",
     ),
+    "simulate": (["simulate", "{file}"], "50% q1, 50% q2"),
     "system": (["system", "{file}"], "omega_([/a]) = 1, omega_(b:b:) = 1.732051"),
 }
 

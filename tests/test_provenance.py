@@ -61,6 +61,10 @@ CASES = {
     "mathieu": (["--publication", "mathieu", "--row", "b2-q5", "--output"], ("md", "csv", "txt")),
     "system": (["system", "{file}", "--output"], ("json", "md", "csv", "txt")),
     "sensitivity": (["sensitivity", "{file}", "--output"], ("json", "txt")),
+    "simulate": (
+        ["simulate", "{file}", "--output"],
+        ("json", "csv", "txt", "png", "svg"),
+    ),
     "vehicle": (
         ["vehicle", VEHICLE, "--closely", "1", "--both", "0", "--output"],
         ("json", "md", "txt"),

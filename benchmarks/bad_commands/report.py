@@ -127,6 +127,26 @@ def _all() -> dict[str, tuple[list[str], str]]:
     add("sensitivity output", ["sensitivity", "--output", "gone/s.json"], "output")
     add("sensitivity beam", ["sensitivity", "--beam", "round"])
 
+    row = ["simulate", "--row", "T1-12"]
+    for value in ("T3-01", "T9-99", ""):
+        add(f"simulate row {value!r}", ["simulate", "--row", value], "row")
+    for name, value in product(("periods", "samples"), ("0", "-1", "x", "1.5", "1000000000")):
+        add(f"simulate {name} {value}", [*row, f"--{name}", value], name)
+    for name, value in product(("q0", "v0"), ("1", "nan 0 0", "0 inf 0", "a 0 0", "0 0 0 0", "")):
+        add(f"simulate {name} {value!r}", [*row, f"--{name}", *value.split()], name)
+    for words in ("--set gamma=1", "--beam stepped", "gone.toml"):
+        add(f"simulate row and {words}", [*row, *words.split()], "row")
+    add("simulate nothing", ["simulate"], "Omega")
+    add("simulate gone", ["simulate", "gone.toml"], "gone.toml")
+    add("simulate format", [*row, "--format", "xml"])
+    add("simulate picture", [*row, "--format", "csv", "--output", "x.png"], "format")
+    for output in ("gone/x.png", "locked.csv", "folder"):
+        add(f"simulate output {output}", [*row, "--output", output], "output")
+    for words in ("Omega=0", "Omega=nan", "Omega=1e-300", "gamma=1e300", "T0=1e300", "modes=0"):
+        given = [w for name in ("Omega=1.1", "gamma=0.1") for w in ("--set", name)]
+        named = "" if "1e300" in words else words.split("=")[0]
+        add(f"simulate {words}", ["simulate", *given, "--set", words], named)
+
     axes = ("Omega", "gamma", "eta", "T0", "K_theta", "xi_G", "omega_L", "g")
     for name, (low, high) in product(axes, (("nan", "1"), ("0", "inf"), ("2", "1"), ("1", "1"))):
         other = "gamma" if name != "gamma" else "Omega"

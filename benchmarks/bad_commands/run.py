@@ -72,6 +72,7 @@ def _load() -> None:
         report,
         rows,
         sensitivity,
+        simulate,
         system,
         vehicle,
     )

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from floquet.arrays import EPS, Complex, Float, frozen
-from floquet.motion.samples import sampled_period
+from floquet.motion.samples import SampledPeriod, sampled_period
 from floquet.motion.strobes import UNDERFLOW, Strobes, strobes
 from hill import HillEquation, PeriodicEquation, checks
 
@@ -148,7 +148,7 @@ def simulate(
 def _states(equation: Equation, x0: Float, periods: int, samples: int) -> tuple[Float, Float]:
     """States at all samples, whole periods of them, and bounds on their errors."""
     one = sampled_period(equation, samples)
-    s = strobes(one.matrices[-1], one.errors[-1], x0, periods)
+    s = strobes(*_monodromy(equation, one), x0, periods)
     m, whole = len(x0), len(s.y) - 1
     found, unsure = np.empty((2, whole * samples + 1, m))
     start, start_error = _between(s, np.eye(m), np.zeros((m, m)))
@@ -159,6 +159,13 @@ def _states(equation: Equation, x0: Float, periods: int, samples: int) -> tuple[
         x, e = _between(own, one.matrices[j], one.errors[j])
         found[j::samples], unsure[j::samples] = x, e
     return found, unsure
+
+
+def _monodromy(equation: Equation, one: SampledPeriod) -> tuple[Float, Float]:
+    """After a whole period, and its error: every sample adds rounding, and one step need not."""
+    whole = sampled_period(equation, 1)
+    best = min((one, whole), key=lambda p: float(np.max(p.errors[-1])))
+    return best.matrices[-1], best.errors[-1]
 
 
 def _between(s: Strobes, Phi: Float, error: Float) -> tuple[Float, Float]:

@@ -212,7 +212,10 @@ def _own(logs: Complex, known: Complex) -> list[int]:
 
 
 def _named(harmonics: Complex, frequencies: Float) -> tuple[Float, Float]:
-    """The harmonic with the most weight, of those alike the one of the highest frequency."""
+    """The harmonic with the most weight; of those alike that of the highest frequency, then of +.
+
+    So a pair's names are each other's too.
+    """
     m, count = harmonics.shape[:2]
     weights = np.sum(np.abs(harmonics) ** 2, axis=2)
     weights /= np.sum(weights, axis=1)[:, None]
@@ -220,8 +223,9 @@ def _named(harmonics: Complex, frequencies: Float) -> tuple[Float, Float]:
     most = np.max(weights, axis=1)
     branch = np.empty(m, int)
     for i in range(m):
-        alike = np.flatnonzero(weights[i] >= (1.0 - ALIKE) * most[i])
-        branch[i] = whole[alike[np.argmax(frequencies[i] + whole[alike])]]
+        alike = whole[weights[i] >= (1.0 - ALIKE) * most[i]]
+        turns = np.round(frequencies[i] + alike, 9)
+        branch[i] = alike[np.lexsort((turns, np.abs(turns)))[-1]]
     return branch, most
 
 

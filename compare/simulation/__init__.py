@@ -1,0 +1,1 @@
+"""A motion followed over many periods, beside what theory says of its growth."""
