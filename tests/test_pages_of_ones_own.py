@@ -181,13 +181,14 @@ def test_a_vehicle_has_its_resonances_in_its_own_units(vehicle: Path) -> None:
 def test_every_link_leads_somewhere(matrices: Path, general: Path, vehicle: Path) -> None:
     for folder in (matrices, general, vehicle):
         titles = []
-        for page in folder.glob("*.html"):
+        for page in set(folder.glob("*.html")) - {folder / "explore.html"}:
             for reference in parsed(page).references:
                 assert (
                     reference == "data:," or reference[0] == "#" or (folder / reference).is_file()
                 )
             titles.append(parsed(page).title)
         assert len(titles) == len(set(titles)) > 1
+        assert "explore.html" in parsed(folder / "chart.html").references
 
 
 def test_in_a_browser_nothing_runs_that_is_not_ours(matrices: Path, browser: Browser) -> None:
@@ -201,14 +202,29 @@ def test_in_a_browser_nothing_runs_that_is_not_ours(matrices: Path, browser: Bro
             assert browser.run("return document.documentElement.scrollWidth") <= width
 
 
-def test_without_matplotlib_the_page_says_so(
+def test_the_chart_can_be_explored(matrices: Path, browser: Browser) -> None:
+    """The page beside it: the title is text there too, and nothing is asked of a network."""
+    browser.look()
+    browser.open(matrices / "chart.html")
+    browser.run("[...document.links].find(a => a.textContent === 'Explore it').click()")
+    assert browser.run("return location.pathname").endswith("explore.html")
+    assert browser.complaints() == []
+    assert browser.run("return document.title").startswith(EVIL)
+    assert browser.run("return document.images.length") == 0
+
+
+def test_without_the_libraries_the_page_says_so(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("compare.pages.own_chart.find_spec", lambda _: None)
     folder = written(tmp_path, "plain", SYSTEM + AXES)
     text = parsed(folder / "chart.html").root.text
     assert "No picture: pictures need matplotlib" in text
+    assert "Not to be explored: a page to explore needs Bokeh" in text
+    assert "Explore it" not in text
     assert not (folder / "chart.svg").exists()
+    assert not (folder / "explore.html").exists()
+    assert not parsed(folder / "chart.html").all("img")
 
 
 @pytest.mark.parametrize(

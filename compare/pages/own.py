@@ -34,8 +34,9 @@ class Charted:
     ----------
     lines : tuple of str
         What was found, in words.
-    picture : bytes
-        SVG; empty where there is none, and the lines say why.
+    picture, explorer : bytes
+        As SVG, and as a page of its own that evaluates P; empty where there is none, and the lines
+        say why.
     tongues : Table or None
     files : mapping of str to bytes
         Its numbers.
@@ -43,6 +44,7 @@ class Charted:
 
     lines: tuple[str, ...]
     picture: bytes = b""
+    explorer: bytes = b""
     tongues: Table | None = None
     files: Mapping[str, bytes] = field(default_factory=dict)
 
@@ -98,10 +100,11 @@ class Resonances:
 
 @dataclass(frozen=True)
 class OwnChart:
-    """The chart's page; `picture` is a path, or empty."""
+    """The chart's page; `picture` and `explorer` are paths, or empty."""
 
     lines: tuple[str, ...]
     picture: str
+    explorer: str
     describes: str
     tongues: Table | None
     data: tuple[str, ...]
@@ -149,11 +152,12 @@ def site(
         pages.append(Page("resonances.html", f"{title}: resonances", "resonances.html", content))
     if charted is not None:
         files |= charted.files
-        if charted.picture:
-            files["chart.svg"] = charted.picture
+        shown = {"chart.svg": charted.picture, "explore.html": charted.explorer}
+        files |= {name: data for name, data in shown.items() if data}
         chart = OwnChart(
             charted.lines,
             "chart.svg" if charted.picture else "",
+            "explore.html" if charted.explorer else "",
             _in_one(charted.lines),
             charted.tongues,
             tuple(charted.files),

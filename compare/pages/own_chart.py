@@ -1,12 +1,14 @@
 """The chart that goes with the pages of one's own system: which axes, and what is told of it."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from importlib.util import find_spec
 
 import numpy as np
 
 from compare.chart_files import tongues_csv
-from compare.chart_picture import NO_PICTURES, picture
+from compare.chart_picture import NO_PICTURES
+from compare.chart_saving import content
 from compare.chart_text import describe, ended, told, tongue_cells
 from compare.charts.compute import chart
 from compare.charts.scenario import scenario
@@ -15,10 +17,12 @@ from compare.edges.instabilities import instabilities
 from compare.edges.interpolated import axes_of
 from compare.edges.on_chart import tongues
 from compare.edges.unnamed import unnamed
+from compare.explorer.page import NO_EXPLORER
 from compare.pages.own import Charted
 from compare.pages.site import Table
 from compare.system_file import Described
-from compare.vehicle.charted import drawn
+from compare.vehicle.charted import charted as charted_study
+from compare.vehicle.charted import shown
 from compare.vehicle.study import Study
 from hill.system import natural_frequencies
 
@@ -61,49 +65,50 @@ def charted(found: Described, stage: Stage) -> Charted:
         lines.append("By the time domain alone: of this kind of equation it is the quicker one.")
     if "Omega" not in made.scenario.names:
         stage("picture", 0, 0)
-        return Charted(
-            tuple(lines), _picture(lambda: picture(made, boundaries(made), "svg"), lines)
-        )
+        return _shown(lines, lambda kind: content(made, kind, boundaries(made), title=found.title))
     other = axes_of(made)[1].name
     edges = tongues(made, progress=lambda k, n: stage("resonances followed", k, n))
     stage("their widths", 0, 0)
     known = instabilities(made, edges)
     lines += [*ended(known, other), *map(told, unnamed(made, edges))]
     heads, rows = tongue_cells(known, other)
+    listed = Table("Tongues, the widest first", tuple(heads), tuple(map(tuple, rows)), words=3)
     stage("picture", 0, 0)
-    drawing = _picture(lambda: picture(made, edges, "svg", title=found.title), lines)
-    return Charted(
-        tuple(lines),
-        drawing,
-        Table("Tongues, the widest first", tuple(heads), tuple(map(tuple, rows)), words=3)
-        if rows
-        else None,
-        {"tongues.csv": tongues_csv(made, known, other)},
+    return replace(
+        _shown(lines, lambda kind: content(made, kind, edges, title=found.title)),
+        tongues=listed if rows else None,
+        files={"tongues.csv": tongues_csv(made, known, other)},
     )
 
 
 def vehicle_charted(title: str, study: Study, stage: Stage) -> Charted:
     """The chart of a vehicle, in cycles; its resonances are on a page of their own."""
-    lines: list[str] = []
-    drawing = _picture(lambda: drawn(title, study, "svg", stage), lines)
-    if drawing:
-        lines.append(
-            "T over the pulsation's frequency and its ratio; the circle is the operating point, "
-            "filled where it is unstable."
-        )
-    return Charted(tuple(lines), drawing)
-
-
-def _picture(draw: Callable[[], bytes], lines: list[str]) -> bytes:
-    """The picture, or a line that says why there is none."""
-    if find_spec("matplotlib") is None:
-        lines.append(f"No picture: {NO_PICTURES}.")
-        return b""
     try:
-        return draw()
+        made, edges = charted_study(study, stage)
     except ValueError as why:
-        lines.append(f"No picture: {why}.")
-        return b""
+        return Charted((f"No chart: {why}.",))
+    stage("picture", 0, 0)
+    lines = [
+        *describe(made),
+        "A circle in the picture is the operating point, filled where it is unstable.",
+    ]
+    return _shown(lines, lambda kind: shown(title, study, made, edges, kind.removeprefix(".")))
+
+
+def _shown(lines: list[str], draw: Callable[[str], bytes]) -> Charted:
+    """As a picture and as a page to explore, or with a line that says why there is none."""
+    found = {}
+    for kind, library, missing in (
+        (".svg", "matplotlib", f"No picture: {NO_PICTURES}."),
+        (".html", "bokeh", f"Not to be explored: {NO_EXPLORER}."),
+    ):
+        try:
+            found[kind] = draw(kind) if find_spec(library) else b""
+        except ValueError as why:
+            found[kind], missing = b"", f"Not drawn: {why}."
+        if not found[kind]:
+            lines.append(missing)
+    return Charted(tuple(lines), found[".svg"], found[".html"])
 
 
 def _lowest(found: Described) -> Axes:

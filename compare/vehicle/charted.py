@@ -1,6 +1,6 @@
 """A study's chart: T over the pulsation's frequency in cycles and its ratio, as a picture."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -102,6 +102,11 @@ def drawn(title: str, study: Study, kind: str, stage: Callable[[str, int, int], 
     """The chart as PNG, SVG or a page, the tongues by their names; pictures mark where it runs."""
     made, edges = charted(study, stage)
     stage("picture", 0, 0)
+    return shown(title, study, made, edges, kind)
+
+
+def shown(title: str, study: Study, made: Chart, edges: Sequence[Tongue], kind: str) -> bytes:
+    """The same of a chart that is there already."""
     if made.route == "floquet":
         title = f"{title}: T by the time domain, tongues by Hill's matrix"
     if kind == "html":
