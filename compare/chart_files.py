@@ -29,16 +29,33 @@ def about(chart: Chart) -> dict[str, Any]:
         "relative_error_of_P": chart.relative_error,
         "disagreement": _finite(chart.disagreement),
         "one_by_one": chart.one_by_one,
+    } | ({"certified": _proven(chart)} if chart.certified else {})
+
+
+def _proven(chart: Chart) -> dict[str, Any]:
+    """What is proven, in numbers."""
+    found = chart.certified
+    assert found is not None
+    return {
+        "area": {kind: getattr(found, kind) for kind in ("stable", "unstable", "undecided")},
+        "cells_proven": found.whole,
+        "contradicted": chart.contradicted,
+        "enclosures": found.enclosures,
+        "remainder": found.remainder,
+        "of_decimals": found.decimals,
     }
 
 
 def npz(chart: Chart) -> bytes:
     """Everything: axes, T and its error, verdicts, nodes and how far the routes differ there.
 
-    And `provenance`, a line of JSON: system, forcing, version, units.
+    `certified`, of cells, where it was asked for; `provenance`, a line of JSON: system, forcing,
+    version, units.
     """
     buffer = io.BytesIO()
-    named = {axis.name: axis.points for axis in chart.axes}
+    named: dict[str, Any] = {axis.name: axis.points for axis in chart.axes}
+    if chart.certified:
+        named["certified"] = chart.certified.cells
     np.savez_compressed(
         buffer,
         T=chart.T,
@@ -51,26 +68,33 @@ def npz(chart: Chart) -> bytes:
         disagreement=chart.disagreement,
         nodes=chart.sampled,
         apart=chart.apart,
-        **named,  # type: ignore[arg-type]
+        **named,
     )
     return buffer.getvalue()
 
 
 def as_csv(chart: Chart) -> bytes:
-    """A line of provenance behind "# ", then one a point: the axes, T, its error, the verdict."""
+    """A line of provenance behind "# ", then one a point: the axes, T, its error, the verdict.
+
+    And what is proven of its cell, where that was asked for.
+    """
     text = io.StringIO()
     text.write(as_comment(about(chart)))
     names = [axis.name for axis in chart.axes]
-    csv.writer(text, lineterminator="\n").writerow([*names, "T", "T_error", "verdict"])
+    head = [*names, "T", "T_error", "verdict", *(["certified"] if chart.certified else [])]
+    csv.writer(text, lineterminator="\n").writerow(head)
     mesh = np.meshgrid(*(axis.points for axis in chart.axes), indexing="ij")
-    verdicts = np.transpose(chart.verdict()).ravel()
+    verdicts = np.transpose(chart.verdict()).ravel().tolist()
+    if chart.certified:
+        cells = np.transpose(chart.certified.cells).ravel().tolist()
+        verdicts = [f"{shown},{proven}" for shown, proven in zip(verdicts, cells, strict=True)]
     numbers = np.column_stack(
         [*(m.ravel() for m in mesh), *(np.transpose(x).ravel() for x in (chart.T, chart.T_error()))]
     )
     form = ",".join(["%.12g"] * (len(names) + 1) + ["%.1e"])
     text.writelines(
         f"{form % tuple(line)},{verdict}\n"
-        for line, verdict in zip(numbers.tolist(), verdicts.tolist(), strict=True)
+        for line, verdict in zip(numbers.tolist(), verdicts, strict=True)
     )
     return text.getvalue().encode()
 
@@ -84,6 +108,8 @@ def as_json(chart: Chart, found: Sequence[Instability] = ()) -> bytes:
         "verdict": chart.verdict().tolist(),
         "tongues": [_tongue(i) for i in found],
     }
+    if chart.certified:
+        content["cells"] = chart.certified.cells.tolist()
     return (json.dumps(content, allow_nan=False) + "\n").encode()
 
 

@@ -4,6 +4,7 @@ import io
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from math import ceil
 from typing import Any
 
 import numpy as np
@@ -25,6 +26,9 @@ STYLE: Any = {
 }
 
 
+LEGEND = 6
+"""Entries that a line has room for."""
+
 TITLE_WIDTH = 104
 """Characters of a title's line: the picture is as wide."""
 
@@ -39,6 +43,9 @@ LINES: dict[str, dict[str, Any]] = {
 CROSSINGS = {"+1": r"$\mu = 1$", "-1": r"$\mu = -1$", "pair": r"a pair of $\mu$"}
 
 QUANTITIES = ("T", "disagreement")
+
+UNPROVEN = (0.45, 0.45, 0.45, 0.35)
+"""Over the colours of T, which stay to be seen."""
 
 MIN_DISAGREEMENT = 1e-17
 """Where the routes agree to the last bit, a disagreement is drawn as this."""
@@ -171,12 +178,15 @@ def _legend(axes: Any, chart: Chart, marks: list[Any]) -> None:
 
     x, y = chart.axes
     infinite = np.isinf(chart.T)
-    found = (
+    found: tuple[tuple[Any, str, Any], ...] = (
         (chart.undecided() & ~infinite, "undecided", "0.55"),
         (chart.undecided() & infinite, "no equation", "tab:orange"),
         (chart.unstable() & infinite, "growth beyond a float", "tab:red"),
     )
     handles: list[Any] = [Patch(fc="white", ec="black", lw=0.4, label="stable")]
+    if chart.certified:
+        words = "cell not proven as a whole"
+        found += ((chart.certified.cells == "undecided", words, UNPROVEN),)
     for where, label, colour in found:
         if np.any(where):
             axes.imshow(
@@ -195,7 +205,7 @@ def _legend(axes: Any, chart: Chart, marks: list[Any]) -> None:
             handles=handles,
             loc="upper left",
             bbox_to_anchor=(0.0, -0.12),
-            ncols=len(handles),
+            ncols=len(handles) if len(handles) <= LEGEND else ceil(len(handles) / 2),
             fontsize=6.5,
             frameon=False,
         )

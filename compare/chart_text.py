@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterator, Sequence
 import numpy as np
 from rich.table import Table
 
+from compare.charts.certified import Certified
 from compare.charts.compute import CHECKS
 from compare.charts.result import Chart
 from compare.console import bare_table
@@ -31,7 +32,20 @@ def describe(result: Chart) -> list[str]:
             f"The two routes differ by {result.disagreement:.0e} of P at the nodes"
             + (", with the same matrices." if result.shared_matrices else ".")
         )
+    if result.certified is not None:
+        lines.append(_certified(result, result.certified))
     return lines
+
+
+def _certified(result: Chart, found: Certified) -> str:
+    """What is proven, and whether the verdicts of the points are with it."""
+    against = result.contradicted
+    return (
+        f"Proven: {1.0 - found.undecided:.1%} of the area, {found.stable:.1%} stable and "
+        f"{found.unstable:.1%} unstable, and {found.whole:.1%} of the {found.cells.size:,} cells "
+        f"as a whole, from {found.enclosures:,} enclosures of P in {found.seconds:.0f} s; "
+        + (f"{against} verdicts CONTRADICT it." if against else "no verdict contradicts it.")
+    )
 
 
 def _largest(result: Chart) -> str:

@@ -195,6 +195,12 @@ def _all() -> dict[str, tuple[list[str], str]]:
             [*CHART, "--tongues", tongues],
             "tongues",
         )
+    for words in ("omega_L=3", "T0=30", "K_theta=-100"):
+        add(f"certify {words}", [*CHART, "--certify", "--set", words], "")
+    across = [*CHART[:6], "--y", "T0", "1", "20", "4", "--set", "gamma=0.1", "--certify"]
+    add("certify other axes", across, "certify")
+    add("certify too many cells", [*CHART[:10], "9000000", "--certify"], "certify")
+    add("certify too near 0", [*CHART[:3], "0.001", *CHART[4:], "--certify"], "Omega")
     same = [*CHART, "--output", "a.csv"]
     add("same file", [*same, "--tongues", "a.csv"], "tongues")
     add("same file, other name", [*same, "--tongues", "./a.csv"], "tongues")

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from compare.charts import surface
 from compare.charts.axis import MAX_POINTS, Axis, from_smooth
+from compare.charts.certified import certified
 from compare.charts.grid import Cells, from_series, on_mesh, one_by_one, reasons
 from compare.charts.nodes import ROUTES, Nodes, solved
 from compare.charts.result import Chart
@@ -47,6 +48,7 @@ def chart(
     tolerance: float = 1e-11,
     workers: int | MapLike = 1,
     resume: str | Path | None = None,
+    certify: bool = False,
     progress: Callable[[int], Any] | None = None,
     stage: Stage | None = None,
 ) -> Chart:
@@ -68,11 +70,14 @@ def chart(
         Processes, or a function that maps like `map` and keeps the order.
     resume : path, optional
         A file of finished nodes: read if it is there, and kept up to date while nodes arrive.
+    certify : bool, optional
+        Prove the verdict of every cell, of a chart of Omega and gamma (extra `proof`).
     progress : callable, optional
         Called with the number of nodes just finished, after they are on disk.
     stage : callable, optional
         Called with what is being done, how much of it is done, and of how much: "nodes", of those
-        asked for so far; "thousandths of the range"; both grow until the chart is done.
+        asked for so far; "thousandths of the range"; both grow until the chart is done. Before
+        them, what is done to certify it.
 
     Returns
     -------
@@ -82,7 +87,8 @@ def chart(
     ------
     ValueError
         Parameters out of range, an axis that is not one, a resume file of another chart; a series
-        that misses its own bound at one of the random points; too many points without a series.
+        that misses its own bound at one of the random points; too many points without a series;
+        what cannot be certified.
     """
     started = time.perf_counter()
     if not axes:
@@ -98,6 +104,7 @@ def chart(
 
     low, high = np.array([axis.span for axis in wanted.axes]).T
     with mapper(workers) as run:
+        proven = certified(wanted, run, stage) if certify else None
         store = Path(resume) if resume else None
         sampler = Nodes(wanted, route, run, store, progress, stage)
         fitted = surface.fit(
@@ -129,7 +136,8 @@ def chart(
         route=route,
         surface=fitted,
         alone=alone,
-        seconds=time.perf_counter() - started,
+        certified=proven,
+        seconds=time.perf_counter() - started - (proven.seconds if proven else 0.0),
     )
 
 

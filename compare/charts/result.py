@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from compare.charts import nodes, surface
 from compare.charts.axis import Axis, to_smooth
+from compare.charts.certified import Certified
 from compare.charts.grid import Cells, Omega_and_eta, from_series, on_mesh
 from compare.charts.scenario import Scenario
 from compare.stability.points import Points
@@ -65,8 +66,10 @@ class Chart:
         The interpolant, for further use.
     alone : tuple of Cells
         What was evaluated one by one.
+    certified : Certified or None
+        What is proven of its cells; None where it was not asked for.
     seconds : float
-        Time taken, nodes included.
+        Time taken, nodes included, what was certified not.
     """
 
     scenario: Scenario
@@ -83,6 +86,7 @@ class Chart:
     route: str
     surface: surface.Surface
     alone: tuple[Cells, ...]
+    certified: Certified | None
     seconds: float
 
     @property
@@ -114,6 +118,11 @@ class Chart:
     def routes_agree(self) -> bool:
         """Whether the routes differ by no more than P's error allows; True where one was asked."""
         return self.route != "both" or self.disagreement <= max(self.relative_error, SAME)
+
+    @property
+    def contradicted(self) -> int:
+        """Points whose verdict is another than is proven of their cells: an error somewhere."""
+        return 0 if self.certified is None else self.certified.contradicted(self.verdict())
 
     def at(self, **values: ArrayLike) -> Points:
         """z, R, T and the verdict at any points within the axes.

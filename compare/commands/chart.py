@@ -35,6 +35,7 @@ examples:
     --output chart.svg
   verify chart --x Omega 0.35 6 1000 --y gamma 0 0.5 1000 --set eta=0.01 \\
     --tongues tongues.csv
+  verify chart --x Omega 0.35 6 200 --y gamma 0 0.5 200 --certify
   verify chart mine.toml --workers 2 --resume nodes.dat --output chart.npz
   verify chart --x Omega 0.9 1.3 200 --y gamma 0 0.3 150 --also T0 5 20 16 \\
     --route floquet --output explore.html
@@ -66,8 +67,8 @@ takes, of anybody's system, and may have the axes too:
   high = 0.5
   count = 1000
 
-exit status: 0 done; 1 the routes disagree beyond the chart's error; 2 wrong
-usage or input."""
+exit status: 0 done; 1 the routes disagree beyond the chart's error, or a verdict
+contradicts what is proven of its cell; 2 wrong usage or input."""
 
 
 BESIDE: dict[str, Any] = {
@@ -95,6 +96,11 @@ def configure(p: argparse.ArgumentParser) -> None:
         choices=QUANTITIES,
         default="T",
         help="what a picture shows: T, or how far the routes differ at the nodes (default T)",
+    )
+    p.add_argument(
+        "--certify",
+        action="store_true",
+        help="prove the verdict of every cell, of a chart of Omega and gamma (extra proof)",
     )
     p.add_argument("--tongues", type=Path, metavar="FILE", help="edges of the tongues, as .csv")
     p.add_argument(
@@ -131,6 +137,7 @@ def run(options: argparse.Namespace) -> int:
             tolerance=options.tolerance,
             workers=workers,
             resume=options.resume,
+            certify=options.certify,
             stage=stage,
         )
         stage("the verdict of every point", 0, 0)
@@ -152,7 +159,7 @@ def run(options: argparse.Namespace) -> int:
         lines += ended(found, other)
     for line in lines:
         say(console, line, whole=True)
-    return int(not result.routes_agree)
+    return int(not result.routes_agree or result.contradicted > 0)
 
 
 def _edges(

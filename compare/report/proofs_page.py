@@ -1,4 +1,4 @@
-"""Writes ``docs/proofs.md``: what is proven of the report's rows, assuming what, and how to check.
+"""Writes ``docs/proofs.md``: what is proven of the report's rows and chart, and how to check it.
 
 ``python -m compare.report.proofs_page``
 """
@@ -7,18 +7,29 @@ from collections.abc import Iterable
 from functools import partial
 from math import ceil, log10
 from pathlib import Path
+from typing import Any
 
+import numpy as np
+
+from compare.charts.compute import chart
+from compare.charts.result import Chart
 from compare.jobs.workers import ALL_CORES, mapper
 from compare.output import check_writable, write_whole
 from compare.provenance import in_words
 from compare.report.proofs import RowProof, lines, prove_row
-from compare.report.tables import all_rows
+from compare.report.tables import UNIFORM, all_rows
 from floquet.enclosure.result import IntervalProof
+from hill import UniformBeam
+
+CHART = [("Omega", 0.35, 6.0, 200), ("gamma", 0.0, 0.5, 200)]
+"""Where all rows of Table 1 are."""
 
 PAGE = Path("docs/proofs.md")
 """From the root of a clone."""
 
-ABOUT = {"of": "rows of Tables 1 to 3, two modes, equations as corrected, decimals as written"}
+ABOUT = {
+    "of": "rows of Tables 1 to 3, a chart; two modes, equations as corrected, decimals as written"
+}
 
 INTRODUCTION = """\
 # What is proven
@@ -38,6 +49,23 @@ SUMMARY = """\
   with a bounded remainder; roots by discs.
 
 [theory.md](theory.md), section 12, has the bounds."""
+
+REASONS = """\
+## Where the printed Omega does not tell
+
+These rows are proven at the Omega that they were run at. Three decimals leave both verdicts open:
+an edge of instability lies between two numbers that are printed the same."""
+
+CHARTED = """\
+## Every point of a chart
+
+Table 1's beam without damping, Omega from .35 to 6 and gamma up to .5, which is where all of its
+rows are. The chart has 200 times 200 cells, each what is nearest to one point of its grid, and a
+cell counts as proven where one verdict is proven of all of its points. A cell that an edge of
+instability crosses has none; parts of it have. P is enclosed at nodes and bounded between them
+([theory.md](theory.md), section 12).
+
+    verify chart --x Omega .35 6 200 --y gamma 0 .5 200 --certify --workers 2"""
 
 ASSUMPTIONS = """\
 ## Under which assumptions
@@ -74,17 +102,22 @@ P +-: the radii of P's coefficients, no more than these. An arrow: print has it 
 an interval are given where there is more than one."""
 
 
-def page(rows: Iterable[RowProof] | None = None) -> str:
+def page(rows: Iterable[RowProof] | None = None, charted: Chart | None = None) -> str:
     """The page as Markdown.
 
     Parameters
     ----------
     rows : iterable of RowProof, optional
         All rows of the three tables with their intervals; computed where not given.
+    charted : Chart, optional
+        Certified; computed where not given.
     """
     if rows is None:
         with mapper(ALL_CORES) as over:
             rows = tuple(over(partial(prove_row, interval=True), all_rows()))
+    if charted is None:
+        uniform: dict[str, Any] = dict(UNIFORM)
+        charted = chart(UniformBeam(**uniform), CHART, certify=True, workers=ALL_CORES)
     found = tuple(rows)
     table = [
         "| row | Omega printed | run at | printed | hill: P +- | floquet: P +- | T | proven "
@@ -93,8 +126,38 @@ def page(rows: Iterable[RowProof] | None = None) -> str:
         *map(line, found),
     ]
     told = "\n".join(f"> {text}" for text in lines(found))
-    parts = [INTRODUCTION, SUMMARY, told, ASSUMPTIONS, CHECK, TABLE, "\n".join(table)]
+    open_rows = [reason(one) for one in found if one.interval and not one.everywhere]
+    reasons = [REASONS, "\n".join(open_rows)] if open_rows else []
+    share = f"> {proven_share(charted)}"
+    parts = [INTRODUCTION, SUMMARY, told, *reasons, CHARTED, share, ASSUMPTIONS, CHECK, TABLE]
+    parts += ["\n".join(table)]
     return "\n\n".join([*parts, in_words(ABOUT)]) + "\n"
+
+
+def reason(one: RowProof) -> str:
+    """Why a row has not one verdict for every Omega that is printed so."""
+    found = one.interval
+    assert found is not None
+    edges = [f"{0.5 * (a + b):.7f}" for a, b, kind in found.parts if kind == "undecided"]
+    (low, high), left = found.Omega, found.share("undecided")
+    return (
+        f"- **{one.row.id}**, printed {one.row.Omega_printed}, from {low:.4f} to {high:.4f}: "
+        f"an edge at {' and '.join(edges)}, {left:.0e} of the interval undecided about it; "
+        f"{one.proof.verdict} at {one.row.Omega:.6f}, where it was run."
+    )
+
+
+def proven_share(charted: Chart) -> str:
+    """What is proven of a chart, in two sentences."""
+    found = charted.certified
+    assert found is not None
+    return (
+        f"{1.0 - found.undecided:.2%} of the area is proven, {found.stable:.2%} stable and "
+        f"{found.unstable:.2%} unstable; of the {found.cells.size:,} cells "
+        f"{np.sum(found.cells == 'stable'):,} are proven stable, "
+        f"{np.sum(found.cells == 'unstable'):,} unstable, {found.whole:.1%} in all. "
+        f"{charted.contradicted} verdicts of the floats contradict it."
+    )
 
 
 def line(one: RowProof) -> str:

@@ -96,7 +96,7 @@ def enclose_interval(
 
 
 def enclose_region(
-    beam: UniformBeam | SteppedBeam,
+    what: UniformBeam | SteppedBeam | HillEquation,
     *,
     Omega: Sequence[Number],
     gamma: Sequence[Number],
@@ -109,9 +109,12 @@ def enclose_region(
 
     Parameters
     ----------
+    what : UniformBeam, SteppedBeam or HillEquation
+        Of an equation F, G and the damping are taken, as floats.
     Omega, gamma : sequence of float, str or Fraction
         The cells' edges, ascending.
     eta : float, str or Fraction, optional
+        Of a beam.
     halvings : int, optional
         How often what is not decided is halved.
     over : map-like, optional
@@ -126,7 +129,7 @@ def enclose_region(
     Raises
     ------
     ValueError
-        As `enclose`; an omega_L that is not infinite; a beam that has no natural frequencies, by
+        As `enclose`; matrices that move with Omega, H, a damping matrix; no natural frequencies, by
         flutter or buckling; ranges that take too many enclosures.
     """
     if find_spec("flint") is None:
@@ -134,7 +137,8 @@ def enclose_region(
     from floquet.enclosure import region
 
     halvings = checks.count("halvings", halvings, least=0)
-    return region.prove(_beam(beam), Omega, gamma, eta, halvings, over, progress)
+    given = what if isinstance(what, HillEquation) else _beam(what)
+    return region.prove(given, Omega, gamma, eta, halvings, over, progress)
 
 
 def _beam(what: Any) -> UniformBeam | SteppedBeam:

@@ -24,7 +24,7 @@ Float = NDArray[np.floating[Any]]
 Index = NDArray[np.intp]
 
 SLACK = 1e-12
-"""Of cosh(pi eta/Omega), pi eta/Omega <= 100: its argument and itself are rounded by 1e-15."""
+"""Of cosh(pi eta/Omega), whose argument is below 710 and rounded by a few 1e-16 of itself."""
 
 ASIDE = frozen(np.array([0.0, 0.5, -0.5, 1.0, -1.0, 2.0, -2.0, 4.0, -4.0]))
 """Imaginary parts from the middle of a pair."""

@@ -46,6 +46,11 @@ class Local:
         return np.asarray((np.abs(self.terms).sum(axis=-1) + self.rest) * (1.0 + ROUNDING))
 
     @property
+    def real(self) -> "Local":
+        """Of complex numbers that are real but for what is rounded."""
+        return Local(np.real(self.terms), self.rest)
+
+    @property
     def ends(self) -> tuple[Float, Float]:
         """Bounds from below and above."""
         c = self.terms

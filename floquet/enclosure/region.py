@@ -14,13 +14,13 @@ from flint import ctx
 from numpy.typing import NDArray
 
 from floquet.enclosure import beams
-from floquet.enclosure.balls import identity, number
+from floquet.enclosure.balls import exact, identity, number
 from floquet.enclosure.bound import bound
 from floquet.enclosure.cells import Place, decided
 from floquet.enclosure.discs import STABLE, UNDECIDED, UNSTABLE
 from floquet.enclosure.result import RegionProof
 from floquet.enclosure.surface import BITS, Packed, Patch, Rectangle, Surface, column, counts
-from hill import SteppedBeam, UniformBeam
+from hill import HillEquation, SteppedBeam, UniformBeam
 from hill.decimals import ExactBeam, Number, exact_beam, fraction
 
 Float = NDArray[np.floating[Any]]
@@ -34,7 +34,7 @@ KINDS = {UNDECIDED: "undecided", STABLE: "stable", UNSTABLE: "unstable"}
 
 
 def prove(
-    beam: UniformBeam | SteppedBeam,
+    what: UniformBeam | SteppedBeam | HillEquation,
     Omega: Sequence[Number],
     gamma: Sequence[Number],
     eta: Number,
@@ -46,28 +46,25 @@ def prove(
     columns, rows = _ascending("Omega", Omega), _ascending("gamma", gamma)
     if columns[0] <= 0:
         raise ValueError(f"Omega = {float(columns[0]):g}: must be > 0")
-    given, under = exact_beam(beam, columns[-1], rows[-1], eta)
-    if given.sigma:
-        raise ValueError(f"omega_L = {beam.omega_L:g}: must be infinite, or G moves with Omega")
+    matrices, damping = _matrices(what, columns[-1], rows[-1], eta)
     s, levels = [1 / x for x in columns[::-1]], rows
     rectangle = Rectangle(*_middle(s[0], s[-1]), *_middle(levels[0], levels[-1]))
     told = progress or (lambda what, done, total: None)
     with ctx.workprec(BITS):
-        F, G = matrices(given, under.eta, BITS)
-        known = bound(F, G)
+        known = bound(*matrices(BITS))
         nodes, remainder = counts(known, rectangle)
         if nodes[0] * nodes[1] > MAX_NODES:
             raise ValueError(
                 f"Omega, gamma: P would be enclosed at {nodes[0]:,} times {nodes[1]:,} points, "
                 f"{MAX_NODES:,} at most in all; take narrower ranges"
             )
-        job = partial(column, partial(matrices, given, under.eta), rectangle, nodes)
+        job = partial(column, matrices, rectangle, nodes)
         values: list[list[list[Packed]]] = []
         for found in over(job, range(nodes[0])):
             values.append(found)
             told("columns of enclosures", len(values), nodes[0])
         surface = Surface(rectangle, known, nodes, remainder, values)
-        numbers, areas = _decided(surface, s, levels, float(under.eta), halvings, told)
+        numbers, areas = _decided(surface, s, levels, float(damping), halvings, over, told)
     return RegionProof(
         Omega=tuple(map(float, columns)),
         gamma=tuple(map(float, rows)),
@@ -78,11 +75,34 @@ def prove(
     )
 
 
+def _matrices(
+    what: UniformBeam | SteppedBeam | HillEquation, Omega: Fraction, gamma: Fraction, eta: Number
+) -> tuple[Callable[[int], tuple[Any, Any]], Fraction]:
+    """What makes F - eta^2/4 and G to so many bits, and eta."""
+    if isinstance(what, HillEquation):
+        if what.H or np.ndim(what.eta) > 0 or eta != 0:
+            raise ValueError("equation: must have no H and a damping that is one number, its own")
+        damping = Fraction(float(what.damping))
+        return partial(_of_floats, what.F, what.G, damping), damping
+    given, under = exact_beam(what, Omega, gamma, eta)
+    if given.sigma:
+        raise ValueError(f"omega_L = {what.omega_L:g}: must be infinite, or G moves with Omega")
+    return partial(of_decimals, given, under.eta), under.eta
+
+
 @lru_cache(maxsize=16)
-def matrices(beam: ExactBeam, eta: Fraction, bits: int) -> tuple[Any, Any]:
-    """F - eta^2/4 and G."""
+def of_decimals(beam: ExactBeam, eta: Fraction, bits: int) -> tuple[Any, Any]:
+    """Of a beam."""
     F, G, _ = beams.matrices(beam, bits)
-    return F - identity(F.nrows()) * (number(eta) ** 2 / 4), G
+    return _less(F, eta), G
+
+
+def _of_floats(F: Any, G: Any, eta: Fraction, bits: int) -> tuple[Any, Any]:
+    return _less(exact(F), eta), exact(G)
+
+
+def _less(F: Any, eta: Fraction) -> Any:
+    return F - identity(F.nrows()) * (number(eta) ** 2 / 4)
 
 
 def _ascending(name: str, edges: Sequence[Number]) -> list[Fraction]:
@@ -102,6 +122,7 @@ def _decided(
     levels: list[Fraction],
     eta: float,
     halvings: int,
+    over: Over,
     told: Progress,
 ) -> tuple[Any, Any]:
     """Parts of each cell by kind, and their areas: (3, rows, columns ascending in s)."""
@@ -109,16 +130,24 @@ def _decided(
     totals: tuple[Any, Any] = np.zeros(shape, np.intp), np.zeros(shape)
     x = [(place - surface.over.s) / surface.over.half_s for place in s]
     y = [(place - surface.over.gamma) / surface.over.half_gamma for place in levels]
-    across, up = surface.cuts()
-    for done, patch in enumerate(surface.patches(), start=1):
+    jobs, cells = [], []
+    for patch in surface.patches():
         own_x, own_y = _within(x, patch.x), _within(y, patch.y)
         ends = np.array([(*a, *b) for _, b in own_y for _, a in own_x])
-        made = decided(patch, ends, _place(surface.over, patch), eta, halvings)
-        cells = np.ix_(range(3), [k for k, _ in own_y], [k for k, _ in own_x])
+        jobs.append((patch, ends, _place(surface.over, patch)))
+        cells.append(np.ix_(range(3), [k for k, _ in own_y], [k for k, _ in own_x]))
+        told("patches", len(jobs), surface.cuts()[0] * surface.cuts()[1])
+    for done, made in enumerate(over(partial(_job, eta, halvings), jobs), start=1):
+        where = cells[done - 1]
         for total, part in zip(totals, made, strict=True):
-            total[cells] += part.reshape(3, len(own_y), len(own_x))
-        told("patches decided", done, across * up)
+            total[where] += part.reshape(total[where].shape)
+        told("patches decided", done, len(jobs))
     return totals
+
+
+def _job(eta: float, halvings: int, job: tuple[Patch, Float, Place]) -> tuple[Any, Any]:
+    patch, ends, place = job
+    return decided(patch, ends, place, eta, halvings)
 
 
 def _within(
