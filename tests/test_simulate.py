@@ -80,6 +80,24 @@ def test_one_coordinate_without_pulsation_stays_within_its_bound(F: float, eta: 
         assert wide < 1e-7 or eta > 0.0
 
 
+def test_what_the_integration_of_a_long_period_loses_is_in_the_bound() -> None:
+    """Two thousand radians in one: what the products alone may lose would not cover it."""
+    equation = HillEquation(F=[[1.3]], G=[[0.7]], gamma=0.0, Omega=0.0035)
+    s = simulate(equation, [0.8], [-0.3], periods=3, samples=7)
+    w = arb(1.3).sqrt()
+    a, b = arb(0.8), arb(-0.3)
+    lost = []
+    for k in range(1, len(s.tau)):
+        c, u = (w * time(s, k)).cos(), (w * time(s, k)).sin()
+        true = [a * c + b / w * u, b * c - a * w * u]
+        share, wide = distance(s, k, true)
+        assert share <= TRUE
+        assert wide < 1e-8
+        lost.append(share * wide)
+    # nor could so much be within bounds of an integration without error
+    assert max(lost) > 100.0 * np.finfo(float).eps
+
+
 def test_a_free_body_and_a_chain_of_them_grow_by_powers_of_time() -> None:
     """One eigenvector for two and for four multipliers at 1."""
     one = simulate(

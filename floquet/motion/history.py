@@ -33,7 +33,8 @@ class Simulation:
     source : HillEquation or PeriodicEquation
         What was solved.
     tau : (k,) ndarray
-        Dimensionless time, in the units of 1/Omega; k = periods samples + 1.
+        Dimensionless time, in the units of 1/Omega; k = periods samples + 1. What is bounded is the
+        motion at the exact times, whole parts of the period 2 pi/Omega, of which these are rounded.
     q, v : (k, n) ndarray
         Coordinates and their derivatives q'. Of an equation of first order q is x, and v has no
         columns.
