@@ -46,8 +46,8 @@ class Monodromy:
     verdict : {"stable", "unstable", "undecided"}
         What is shown: all z real, simple and within (-1, 1), or decay; growth; or neither.
     liouville_defect : float
-        |det Phi / exp(-period tr C) - 1|, or exp(period tr A), of the run that checks, which takes
-        no symmetry for granted.
+        `|det Phi / exp(-period tr C) - 1|`, or exp(period tr A), of the run that checks, which
+        takes no symmetry for granted.
     reversibility_defect : float
         Largest element of (S Phi_u)^2 - I of that run, over the square of the largest of Phi_u;
         nan where there is no z.

@@ -81,7 +81,7 @@ class System(Protocol):
         coefficient has a pole there; ``equation`` raises `hill.errors.Singular` at them.
     natural_frequencies()
         Of the unforced, undamped system; from F where it is not there.
-    varied(**values)
+    varied(name=value, ...)
         The system with other values of some parameters, where it is no dataclass.
     values
         A mapping of the parameters' names to their numbers, where they are no attributes.

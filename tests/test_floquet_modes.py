@@ -4,8 +4,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from periodic_systems import EXPONENTS, asymmetric_rotor, random_periodic
 
+from benchmarks.validation.literature import EXPONENTS, asymmetric_rotor, random_periodic
 from compare.publications import find
 from compare.report.row import equation as by_closed_form
 from compare.report.row import witness

@@ -6,8 +6,13 @@ from typing import Any
 import numpy as np
 import pytest
 from periodic_balls import off, reference
-from periodic_systems import BITTANTI_COLANERI, VINOGRAD, asymmetric_rotor, random_periodic
 
+from benchmarks.validation.literature import (
+    BITTANTI_COLANERI,
+    VINOGRAD,
+    asymmetric_rotor,
+    random_periodic,
+)
 from floquet import monodromy
 from floquet.batch import polynomials
 from hill import Fourier, HillEquation, PeriodicEquation

@@ -6,12 +6,12 @@ from typing import Any
 import numpy as np
 import pytest
 from flint import acb_mat, arb, ctx
-from periodic_systems import BITTANTI_COLANERI as STRONG
-from periodic_systems import VINOGRAD, ZHOU_HAGIWARA
 from scipy.linalg import expm
 from systems import SPECIAL, random_system
 
 from benchmarks.honesty import arbiter
+from benchmarks.validation.literature import BITTANTI_COLANERI as STRONG
+from benchmarks.validation.literature import VINOGRAD, ZHOU_HAGIWARA
 from compare import crosscheck
 from compare.report.row import equation
 from compare.report.tables import Row, all_rows

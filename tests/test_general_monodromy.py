@@ -8,16 +8,16 @@ import numpy as np
 import pytest
 from flint import acb, acb_mat, arb, ctx
 from periodic_balls import off, reference
-from periodic_systems import (
+from scipy.integrate import solve_ivp
+from scipy.linalg import expm
+
+from benchmarks.validation.literature import (
     BITTANTI_COLANERI,
     EXPONENTS,
     VINOGRAD,
     asymmetric_rotor,
     random_periodic,
 )
-from scipy.integrate import solve_ivp
-from scipy.linalg import expm
-
 from compare.report.row import equation
 from compare.report.tables import all_rows
 from floquet import monodromy

@@ -5,8 +5,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from periodic_systems import VINOGRAD, asymmetric_rotor, random_periodic
 
+from benchmarks.validation.literature import VINOGRAD, asymmetric_rotor, random_periodic
 from floquet import general_sensitivities, monodromy, sensitivities
 from floquet.sensitivity.general import Coefficients, GeneralDerivatives
 from hill import Fourier, HillEquation, PeriodicEquation

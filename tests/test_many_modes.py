@@ -4,8 +4,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from periodic_systems import VINOGRAD, asymmetric_rotor, random_periodic
 
+from benchmarks.validation.literature import VINOGRAD, asymmetric_rotor, random_periodic
 from floquet import monodromy
 from floquet.eigenvalues import discs_from_matrix
 from floquet.general.mode_bounds import discs_one_by_one

@@ -6,9 +6,9 @@ from typing import Any
 import casadi as ca
 import numpy as np
 import pytest
-from periodic_systems import EXPONENTS, VINOGRAD, random_periodic
 from scipy.linalg import expm
 
+from benchmarks.validation.literature import EXPONENTS, VINOGRAD, random_periodic
 from floquet import EstimatedMonodromy, monodromy
 from hill import Fourier, PeriodicEquation
 

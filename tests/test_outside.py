@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from periodic_systems import EXPONENTS
-from rotor import PRINTED, rotor
 
+from benchmarks.validation.literature import EXPONENTS
+from benchmarks.validation.rotor import PRINTED, rotor
 from floquet import monodromy
 from hill import Fourier, HillEquation, PeriodicEquation, characteristic
 

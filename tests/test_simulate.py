@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from flint import arb, arb_mat, ctx
 from periodic_balls import reference
-from periodic_systems import VINOGRAD, asymmetric_rotor
 
 from benchmarks.routes.systems import system
+from benchmarks.validation.literature import VINOGRAD, asymmetric_rotor
 from floquet import Simulation, simulate
 from hill import Fourier, HillEquation, PeriodicEquation
 

@@ -57,12 +57,13 @@ class FloquetModes:
         The share of the harmonic with the most weight; where it is near 1/2 or below, others are
         nearly as good a name for the frequency.
     shapes : (m, k, n) complex ndarray
-        p of the coordinates; of an equation of first order of x. The mean of the sum of |p|^2 is 1,
-        and the largest element of its mean over the period is real and positive.
+        p of the coordinates; of an equation of first order of x. The mean of the sum of `|p|^2` is
+        1, and the largest element of its mean over the period is real and positive.
     states : (m, m) complex ndarray
         A row a mode: (p, p' + lambda p) at tau = 0, the initial conditions of its motion.
     participation : (m, n) ndarray
-        The share of each coordinate in the mean of the sum of |p|^2, in the coordinates' own units.
+        The share of each coordinate in the mean of the sum of `|p|^2`, in the coordinates' own
+        units.
     shape_error_estimate : (m,) ndarray
         An estimate, to first order, of what the shapes are off over their size; infinite where
         multipliers meet, whose shapes cannot be told apart.

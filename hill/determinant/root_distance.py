@@ -27,7 +27,7 @@ class RootDistance:
     newton : (k,) complex ndarray
         P/P': a root is about that much less than the point.
     distance : (k,) ndarray
-        Bound on the distance to the nearest root, n |P/P'| for a polynomial of degree n, rounding
+        Bound on the distance to the nearest root, `n |P/P'|` for a polynomial of degree n, rounding
         included; infinite where rounding hides P'.
     error : (k,) ndarray
         The part of `distance` that is due to rounding.

@@ -44,10 +44,10 @@ def matrices() -> tuple[Float, Float, Float]:
         G[at, at] += 2.0 * turning
     for x, outer, width in DISCS:
         node = 2 * round(x / length)
-        mass = DENSITY * np.pi * (outer**2 - DIAMETER**2) * width / 4.0
-        polar = mass * (outer**2 + DIAMETER**2) / 8.0
-        M[node, node] += mass
-        M[node + 1, node + 1] += 0.5 * polar + mass * width**2 / 12.0
+        disc = DENSITY * np.pi * (outer**2 - DIAMETER**2) * width / 4.0
+        polar = disc * (outer**2 + DIAMETER**2) / 8.0
+        M[node, node] += disc
+        M[node + 1, node + 1] += 0.5 * polar + disc * width**2 / 12.0
         G[node + 1, node + 1] += polar
     for node in (0, count - 2):
         K[node, node] += BEARING

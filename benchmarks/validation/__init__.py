@@ -1,0 +1,1 @@
+"""Numbers that others printed, ours beside them: ``python -m benchmarks.validation``."""
