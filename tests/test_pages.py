@@ -16,7 +16,8 @@ from compare.__main__ import main
 from compare.commands import report as commands_report
 from compare.output_folder import LIST, check_folder, write_folder
 from compare.pages import mathematics, pictures, printed, printed_row
-from compare.pages.motion import PERIODS, Motion, motion
+from compare.pages.drawing import Frame
+from compare.pages.motion import PERIODS, SHOWN, Motion, motion
 from compare.pages.render import render
 from compare.pages.site import Site
 from compare.report.claims.run import judge
@@ -330,7 +331,9 @@ def test_growth_is_drawn_with_the_slope_of_T() -> None:
     law, line = (
         np.array(points(next(c for c in drawn.curves if c.look == look))) for look in ("law", "a")
     )
-    assert np.max(np.abs(law - line)) < 0.11
+    # to a tenth of a dot, both of them
+    assert np.max(np.abs(np.interp(line[:, 0], *law.T) - line[:, 1])) < 0.16
+    assert abs(law[-1, 1] - law[0, 1]) > 100.0
     assert not [c for c in pictures.growth(grown(0.0)).curves if c.look == "law"]
 
 
@@ -340,7 +343,7 @@ def test_the_motion_of_a_row_grows_as_its_T_says() -> None:
     found = motion(equation(row, 2), T, printed_row.COORDINATES)
     assert isinstance(found, Motion)
     assert found.largest.shape == (PERIODS, 3)
-    assert found.shown == 8
+    assert found.shown == SHOWN
     assert found.known_to < 1e-6
     rate = np.polyfit(found.period * np.arange(100.0, 200.0), np.log(found.largest[100:]), 1)[0]
     # measured 2.1e-3: an extreme of 64 samples a period, and what else moves
@@ -370,6 +373,23 @@ def test_a_motion_beyond_a_float_is_told() -> None:
     assert decays.names == ("x_1",)
     drawn = pictures.growth(decays)
     assert [c for c in drawn.curves if c.look == "law"]
+
+
+@pytest.mark.parametrize(
+    ("low", "high"), [(0.0, 8.0), (-1.00002, -0.99999), (-3e-5, 2e-5), (-7e5, 6e5), (0.0, 1e12)]
+)
+def test_ticks_are_told_apart_and_fit(low: float, high: float) -> None:
+    frame = Frame(low, high, low, high)
+    _, labels = frame.axes("x", "y")
+    across = [label for label in labels if label.y > frame.height - 40.0 and label.text != "x"]
+    up = [label for label in labels if label.anchor == "end" and label.text != "y"]
+    for some in (across, up):
+        assert len({label.text for label in some}) == len(some) >= 2
+    for label in across:
+        assert label.x + 3.8 * len(label.text) <= frame.width + 1e-9
+    # up the sheet numbers are about 0, or of a few digits
+    for label in up if low != -1.00002 else ():
+        assert label.x - 6.6 * len(label.text) >= 0.0
 
 
 @pytest.mark.parametrize(

@@ -16,7 +16,13 @@ LEFT, RIGHT, TOP, BOTTOM = 62.0, 12.0, 12.0, 44.0
 """Margins, for the labels of the axes."""
 
 MOST_TICKS = 6
-MOST_DECIMALS = 6
+DECIMALS_ACROSS, DECIMALS_UP = 6, 4
+"""Of a tick's label at most, where there is as much room; powers of ten beyond."""
+
+RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+LETTER = 7.7
+"""Dots that a digit is wide: .64 of the type's size in DejaVu Serif, as wide as any."""
 
 
 @dataclass(frozen=True)
@@ -114,7 +120,8 @@ class Frame:
             for value, height in zip(map(float, x), map(float, y), strict=True)
             if math.isfinite(value) and not math.isnan(height)
         )
-        return Curve(" ".join(f"{self.x(a):.1f},{self.y(b):.1f}" for a, b in pairs), look)
+        points = ((_tenths(self.x(a)), _tenths(self.y(b))) for a, b in pairs)
+        return Curve(" ".join(f"{a},{b}" for a, b in points), look)
 
     def mark(self, x: float, y: float, shape: str, look: str, says: str = "") -> Mark:
         """A mark at values."""
@@ -127,11 +134,14 @@ class Frame:
         bottom, right = self.height - BOTTOM, self.width - RIGHT
         box = f"{LEFT},{TOP} {LEFT},{bottom} {right},{bottom} {right},{TOP} {LEFT},{TOP}"
         curves, labels = [Curve(box, "frame")], []
-        for value, words in _worded(self.low_x, self.high_x):
+        for value, words in _worded(self.low_x, self.high_x, DECIMALS_ACROSS):
             at = round(self.x(value), 1)
             curves.append(Curve(f"{at},{bottom} {at},{bottom - 4}", "frame"))
-            labels.append(Label(at, bottom + 15, words))
-        for value, words in _worded(self.low_y, self.high_y) if y_words is None else y_words:
+            labels.append(
+                Label(min(at, self.width - 0.5 * LETTER * len(words)), bottom + 15, words)
+            )
+        own = _worded(self.low_y, self.high_y, DECIMALS_UP) if y_words is None else y_words
+        for value, words in own:
             at = round(self.y(value), 1)
             curves.append(Curve(f"{LEFT},{at} {LEFT + 4},{at}", "frame"))
             labels.append(Label(LEFT - 6, at + 4, words, "end"))
@@ -140,18 +150,36 @@ class Frame:
         return tuple(curves), tuple(labels)
 
 
+def _tenths(value: float) -> str:
+    """A tenth of a dot is not seen, and pages have many."""
+    return f"{value:.1f}".removesuffix(".0")
+
+
 def _upright(name: str) -> Label:
     return Label(14.0, 0.5 * (HEIGHT - BOTTOM + TOP), name, "upright")
 
 
-def _worded(low: float, high: float) -> list[tuple[float, str]]:
+def _worded(low: float, high: float, most: int) -> list[tuple[float, str]]:
     """Ticks with as many decimals as tell them apart."""
     at = ticks(low, high)
     step = at[1] - at[0] if len(at) > 1 else high - low
     decimals = max(0, -math.floor(math.log10(step) + 1e-9))
-    if decimals > MOST_DECIMALS or abs(high) + abs(low) > 10.0 * 10.0**MOST_DECIMALS:
-        return [(value, f"{value:.3g}".replace("-", "−")) for value in at]
+    if decimals > most or max(abs(low), abs(high)) >= 10.0 ** (most + 2):
+        words = [_scientific(value) for value in at]
+        if len(set(words)) == len(words):
+            return list(zip(at, words, strict=True))
     return [(value, f"{value + 0.0:.{decimals}f}".replace("-", "−")) for value in at]
+
+
+def _scientific(value: float) -> str:
+    mantissa, _, exponent = f"{value:.3g}".partition("e")
+    power = f"×{power_of_ten(int(exponent))}" if exponent else ""
+    return f"{mantissa}{power}".replace("-", "−")
+
+
+def power_of_ten(exponent: int) -> str:
+    """In letters, 10⁻³: there are no small ones in a picture's words."""
+    return "10" + str(exponent).translate(RAISED)
 
 
 def ticks(low: float, high: float, most: int = MOST_TICKS) -> list[float]:

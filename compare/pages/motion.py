@@ -12,7 +12,7 @@ from hill import HillEquation
 Float = NDArray[np.floating[Any]]
 
 PERIODS = 200
-SHOWN = 8
+SHOWN = 4
 """Periods of which the history is drawn, sample by sample."""
 
 SAMPLES = 64

@@ -9,7 +9,18 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from compare.pages.drawing import HEIGHT, WIDTH, Curve, Frame, Key, Label, Mark, Picture, ticks
+from compare.pages.drawing import (
+    HEIGHT,
+    WIDTH,
+    Curve,
+    Frame,
+    Key,
+    Label,
+    Mark,
+    Picture,
+    power_of_ten,
+    ticks,
+)
 from compare.pages.motion import Motion
 
 Float = NDArray[np.floating[Any]]
@@ -17,8 +28,8 @@ Float = NDArray[np.floating[Any]]
 FARTHEST = 5.0
 """Moduli beyond it are marked at the picture's edge."""
 
-POINTS = 161
-"""Of a curve: one a picture's 2 dots."""
+POINTS = 121
+"""Of a curve: one every three dots."""
 
 # A window on the closest roots is so many times as wide as they are apart, and never narrower.
 AROUND, NARROWEST = 1.5, 2e-6
@@ -44,7 +55,7 @@ def multipliers(hill: Sequence[complex], floquet: Sequence[complex]) -> Picture:
         x, y = WIDTH / 2 + scale * inside.real, HEIGHT / 2 - scale * inside.imag
         return round(x, 1), round(y, 1)
 
-    turn = np.exp(2j * np.pi * np.arange(97) / 96)
+    turn = np.exp(2j * np.pi * np.arange(73) / 72)
     circle = Curve(" ".join(f"{x},{y}" for x, y in map(at, turn)), "circle")
     (left, middle), (right, _) = at(complex(-reach)), at(complex(reach))
     (centre, top), (_, bottom) = at(1j * reach), at(-1j * reach)
@@ -205,15 +216,18 @@ def growth(m: Motion) -> Picture:
     """The largest excursion in each period, on a logarithmic scale, and exp(T tau/2)."""
     size = np.log10(np.maximum(m.largest, np.finfo(float).tiny))
     periods = np.arange(1.0, len(m.largest) + 1.0)
-    law = 0.5 * m.T * m.period * (periods - periods[-1]) * math.log10(math.e) + size[-1].max()
-    low, high = _whole_decades(float(size.min()), float(size.max()))
+    last = float(size[-1].max())
+    grown = 0.5 * m.T * m.period * (len(periods) - 1.0) * math.log10(math.e)
+    law = [last - grown, last]
+    # the law's line is kept whole: cut off, it would have another slope
+    low, high = _whole_decades(min(size.min(), law[0]), max(size.max(), law[0]))
     frame = Frame(0.0, float(len(periods)), low, high)
-    decades = [(v, _power(v)) for v in ticks(low, high) if v == round(v)]
+    decades = [(v, power_of_ten(round(v))) for v in ticks(low, high) if v == round(v)]
     curves, labels = frame.axes("periods of the thrust", "largest |q|", decades)
     lines = [frame.curve(periods, size[:, k], _colour(k)) for k in range(size.shape[1])]
     legend = list(_coordinates(m))
     if m.T:
-        lines.insert(0, frame.curve(periods, law, "law"))
+        lines.insert(0, frame.curve(periods[[0, -1]], law, "law"))
         legend.append(Key("law", "line", "exp(Tτ/2)"))
     by = float(np.ptp(size))
     return Picture(
@@ -230,11 +244,6 @@ def growth(m: Motion) -> Picture:
 def _whole_decades(low: float, high: float) -> tuple[float, float]:
     low, high = math.floor(low - 0.05), math.ceil(high + 0.05)
     return (low, high) if high > low else (low, low + 1)
-
-
-def _power(value: float) -> str:
-    digits = str(round(value)).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
-    return f"10{digits}"
 
 
 def _colour(k: int) -> str:
