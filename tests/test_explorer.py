@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from compare import chart, tongues
+from compare import chart, crosscheck, tongues
 from compare.__main__ import main
 from compare.charts import surface
 from compare.charts.axis import to_smooth
@@ -15,7 +15,7 @@ from compare.explorer import page as module
 from compare.explorer.data import data_of
 from compare.explorer.page import explorer_page
 from compare.symbols import GREEK, in_letters
-from hill import Fourier, MatrixSystem, PeriodicSystem, SteppedBeam, UniformBeam
+from hill import Fourier, MatrixSystem, PeriodicSystem, SteppedBeam, UniformBeam, Vehicle
 
 pytest.importorskip("bokeh")
 
@@ -308,3 +308,18 @@ def test_a_chart_saves_itself(pages, tmp_path):
     assert json.loads((tmp_path / "chart.json").read_text())["tongues"]
     with pytest.raises(ValueError, match="must end in"):
         own.save(Path(tmp_path / "chart.doc"))
+
+
+def test_a_vehicle_of_ones_own_is_in_hertz_and_grows_per_second():
+    pytest.importorskip("skfem")
+    vehicle = Vehicle.from_file(Path(__file__).parent.parent / "examples" / "uniform.toml")
+    assert vehicle.damping.eta > 0.0
+    own = chart(vehicle, [("Omega", 6.0, 8.0, 30), ("gamma", 0.0, 0.3, 20)], route="floquet")
+    for Omega, gamma in ((7.114, 0.25), (6.5, 0.2)):
+        x = crosscheck(vehicle, Omega=Omega, gamma=gamma)
+        there = own.at(Omega=Omega, gamma=gamma)
+        assert there.T[0] == pytest.approx(x.T, abs=1e-8)
+        assert there.verdict[0] == x.verdict
+    data = data_of(own)
+    assert (data["axes"][0]["label"], data["time"]) == ("pulsation, Hz", "s")
+    assert data["axes"][0]["per"] == pytest.approx(2.0 * np.pi)
