@@ -2,20 +2,25 @@
 
 import io
 import re
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
-from math import ceil
+from importlib.util import find_spec
 from typing import Any
 
 import numpy as np
 
+from compare.chart_edges import draw_edges
 from compare.chart_files import about
+from compare.chart_growth import NAMES, growth_as_colour, growth_as_curve
+from compare.chart_names import write_names
 from compare.chart_ticks import ticks_in_cycles
 from compare.charts.result import Chart
 from compare.edges.curves import Curve
 from compare.edges.tongue import Tongue
+from compare.edges.unnamed import unnamed
 from compare.provenance import picture_metadata
-from compare.symbols import of_resonance, of_value, symbol
+from compare.symbols import of_value, symbol
+from hill import checks
 
 STYLE: Any = {
     "font.family": "serif",
@@ -26,26 +31,21 @@ STYLE: Any = {
 }
 
 
-LEGEND = 6
-"""Entries that a line has room for."""
+PICTURES = (".png", ".svg", ".pdf")
 
-TITLE_WIDTH = 104
-"""Characters of a title's line: the picture is as wide."""
+SIZE, SIZES = (7.2, 4.6), (2.0, 40.0)
+"""Width and height in inches where nothing is said, and what they may be."""
+
+DPI = 200
+CHARACTERS = 16.5
+"""Of a title's line, an inch."""
+
+MOST_NAMELESS = 12
+"""Regions without a name that have a sign, those of the largest T."""
 
 NO_PICTURES = 'pictures need matplotlib: pip install "floquet-crosscheck[plot]"'
 
-LINE: dict[str, Any] = {"color": "black", "linewidth": 0.6}
-LINES: dict[str, dict[str, Any]] = {
-    "+1": {"linestyle": (0, (6, 2))},
-    "-1": {"linestyle": "-"},
-    "pair": {"linestyle": (0, (6, 1.5, 1, 1.5))},
-}
-CROSSINGS = {"+1": r"$\mu = 1$", "-1": r"$\mu = -1$", "pair": r"a pair of $\mu$"}
-
 QUANTITIES = ("T", "disagreement")
-
-UNPROVEN = (0.45, 0.45, 0.45, 0.35)
-"""Over the colours of T, which stay to be seen."""
 
 MIN_DISAGREEMENT = 1e-17
 """Where the routes agree to the last bit, a disagreement is drawn as this."""
@@ -70,15 +70,17 @@ def picture(
     marks: Sequence[Mark] = (),
     marks_label: str = "marked",
     in_cycles: str = "",
+    size: tuple[float, float] = SIZE,
+    log: Collection[str] = (),
 ) -> bytes:
-    """The chart as PNG or SVG.
+    """The chart as PNG, SVG or PDF: a map of T over two axes, or T along one.
 
     Parameters
     ----------
     chart : Chart
     boundaries : sequence of Tongue or Curve
         Drawn as lines; tongues with their names.
-    kind : {"png", "svg"}
+    kind : {"png", "svg", "pdf"}
     quantity : {"T", "disagreement"}, optional
         T over the chart, or how far the two routes differ at its nodes.
     title : str, optional
@@ -88,127 +90,129 @@ def picture(
         What the legend calls them.
     in_cycles : str, optional
         What Omega's axis is called, in cycles per unit of time; in radians where nothing is said.
+    size : tuple of float, optional
+        Width and height in inches.
+    log : collection of str, optional
+        Axes that are logarithmic.
 
     Raises
     ------
     ValueError
-        The chart has not two axes, or no disagreement to draw; matplotlib is not installed.
+        The chart has more than two axes, or no disagreement to draw; a logarithmic axis that is
+        none of the chart's, or begins at 0; matplotlib is not installed.
     """
-    if len(chart.axes) != 2:
-        raise ValueError(f"a picture needs two axes, the chart has {len(chart.axes)}")
-    if quantity == "disagreement" and chart.route != "both":
-        raise ValueError(f"disagreement: needs route = 'both', the chart has {chart.route!r}")
-    try:
-        import matplotlib
-        from matplotlib.backends.backend_agg import FigureCanvasAgg
-        from matplotlib.figure import Figure
-    except ImportError:
-        raise ValueError(NO_PICTURES) from None
-    x, y = chart.axes
+    check_drawn([(a.name, a.low) for a in chart.axes], size, log)
+    if quantity == "disagreement" and (chart.route != "both" or len(chart.axes) != 2):
+        raise ValueError(
+            f"disagreement: needs two axes and route = 'both', the chart has {chart.route!r}"
+        )
+    import matplotlib
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
     with matplotlib.rc_context(STYLE):
-        figure = Figure(figsize=(7.2, 4.6), layout="constrained")
+        figure = Figure(figsize=size, layout="constrained")
         FigureCanvasAgg(figure)
         axes = figure.add_subplot()
-        (_growth if quantity == "T" else _disagreement)(figure, axes, chart)
-        for boundary in boundaries:
-            look = LINES[_kind(boundary)] | LINE
-            for along, across in _lines(boundary, x.name):
-                axes.plot(along, across, **look)
-        if quantity == "T":
-            _name(axes, chart, [b for b in boundaries if isinstance(b, Tongue)])
-            kinds = {_kind(boundary) for boundary in boundaries}
-            _legend(axes, chart, [*_crossings(kinds), *_marked(axes, chart, marks, marks_label)])
-        axes.set(xlim=(x.low, x.high), ylim=(y.low, y.high))
-        axes.set_xlabel(symbol(x.name))
-        axes.set_ylabel(symbol(y.name))
-        if in_cycles:
-            ticks_in_cycles(axes, x.name, in_cycles)
-        axes.set_title(_title(chart, title), fontsize=8, loc="left")
+        for axis, scale in zip(chart.axes, (axes.set_xscale, axes.set_yscale), strict=False):
+            scale("log" if axis.name in log else "linear")
+        if quantity == "disagreement":
+            _disagreement(figure, axes, chart)
+        elif len(chart.axes) == 1:
+            growth_as_curve(axes, chart, size, log)
+        else:
+            _map(figure, axes, chart, boundaries, marks, marks_label, size, log)
+        _frame(axes, chart, in_cycles)
+        words = _title(chart, title, characters=int(size[0] * CHARACTERS))
+        figure.suptitle(words, fontsize=8, x=0.01, ha="left")
         buffer = io.BytesIO()
         metadata = picture_metadata(about(chart), kind)
-        figure.savefig(buffer, format=kind, dpi=200, metadata=metadata)
+        figure.savefig(buffer, format=kind, dpi=DPI, metadata=metadata)
     return buffer.getvalue()
 
 
-def _kind(boundary: Tongue | Curve) -> str:
-    return boundary.kind if isinstance(boundary, Curve) else boundary.resonance.indicator
+def check_drawn(
+    axes: Sequence[tuple[str, float]], size: tuple[float, float], log: Collection[str]
+) -> None:
+    """Refuse a picture that there will be none of, before anything is computed.
+
+    Parameters
+    ----------
+    axes : sequence of (name, low)
+    size, log
+        As for `picture`.
+
+    Raises
+    ------
+    ValueError
+        More than two axes; a size that is no picture's; a logarithmic axis that cannot be;
+        matplotlib is not installed.
+    """
+    if len(axes) > 2:
+        raise ValueError(f"a picture needs one or two axes, the chart has {len(axes)}")
+    for name, value in zip(("width", "height"), size, strict=True):
+        checks.between(f"{name} of the picture", value, *SIZES)
+    lows = dict(axes)
+    for name in log:
+        if name not in lows:
+            raise ValueError(f"log = {name!r}: must be an axis, {' or '.join(lows)}")
+        if lows[name] <= 0.0:
+            raise ValueError(f"log = {name!r}: begins at {lows[name]:g}; must be greater than 0")
+    if find_spec("matplotlib") is None:
+        raise ValueError(NO_PICTURES)
 
 
-def _crossings(kinds: set[str]) -> list[Any]:
-    """What the legend says of the lines: which multipliers leave the unit circle there."""
-    from matplotlib.lines import Line2D
-
-    shown = ((kind, words) for kind, words in CROSSINGS.items() if kind in kinds)
-    return [Line2D([], [], label=words, **(LINES[kind] | LINE)) for kind, words in shown]
-
-
-def _lines(boundary: Tongue | Curve, x: str) -> list[tuple[Any, Any]]:
-    """What to draw of a boundary, whichever axis Omega is."""
-    if isinstance(boundary, Curve):
-        return [(boundary.x, boundary.y)]
-    edges = [(edge, boundary.y) for edge in (boundary.lower, boundary.upper)]
-    return edges if x == "Omega" else [(y, edge) for edge, y in edges]
+def _frame(axes: Any, chart: Chart, in_cycles: str) -> None:
+    x, *others = chart.axes
+    axes.set_xlim(x.low, x.high)
+    axes.set_xlabel(symbol(x.name))
+    for y in others:
+        axes.set_ylim(y.low, y.high)
+        axes.set_ylabel(symbol(y.name))
+    if in_cycles:
+        ticks_in_cycles(axes, x.name, in_cycles)
 
 
-def _growth(figure: Any, axes: Any, chart: Chart) -> None:
-    """T as colour, white where the system is stable."""
-    from matplotlib.colors import LogNorm
-
+def _map(
+    figure: Any,
+    axes: Any,
+    chart: Chart,
+    boundaries: Sequence[Tongue | Curve],
+    marks: Sequence[Mark],
+    marks_label: str,
+    size: tuple[float, float],
+    log: Collection[str],
+) -> None:
     x, y = chart.axes
-    unstable = np.ma.array(chart.T, mask=~(chart.unstable() & np.isfinite(chart.T)))
-    if unstable.count():
-        top = float(unstable.max())
-        shown = axes.imshow(
-            unstable,
-            extent=(x.low, x.high, y.low, y.high),
-            origin="lower",
-            aspect="auto",
-            cmap="viridis_r",
-            norm=LogNorm(max(top / 300.0, 1e-5), top),
-            interpolation="none",
-            rasterized=True,
-        )
-        figure.colorbar(shown, ax=axes, pad=0.015, label="$T$, twice the growth exponent")
-
-
-def _legend(axes: Any, chart: Chart, marks: list[Any]) -> None:
-    """Where no verdict is shown, and where T is beyond a float or there is no equation."""
-    from matplotlib.colors import ListedColormap
-    from matplotlib.patches import Patch
-
-    x, y = chart.axes
-    infinite = np.isinf(chart.T)
-    found: tuple[tuple[Any, str, Any], ...] = (
-        (chart.undecided() & ~infinite, "undecided", "0.55"),
-        (chart.undecided() & infinite, "no equation", "tab:orange"),
-        (chart.unstable() & infinite, "growth beyond a float", "tab:red"),
-    )
-    handles: list[Any] = [Patch(fc="white", ec="black", lw=0.4, label="stable")]
-    if chart.certified:
-        words = "cell not proven as a whole"
-        found += ((chart.certified.cells == "undecided", words, UNPROVEN),)
-    for where, label, colour in found:
-        if np.any(where):
-            axes.imshow(
-                np.ma.array(np.ones(where.shape), mask=~where),
-                extent=(x.low, x.high, y.low, y.high),
-                origin="lower",
-                aspect="auto",
-                cmap=ListedColormap([colour]),
-                interpolation="none",
-                rasterized=True,
-            )
-            handles.append(Patch(fc=colour, ec="none", label=label))
-    handles += marks
+    handles = growth_as_colour(figure, axes, chart, size, log)
+    handles += draw_edges(axes, boundaries, x.name)
+    handles += _marked(axes, chart, marks, marks_label)
+    if "Omega" in chart.scenario.names:
+        own = [b for b in boundaries if isinstance(b, Tongue)]
+        upright = x.name == "Omega"
+        length = (0.8 if upright else 0.7) * size[0 if upright else 1]
+        write_names(axes, own, x, y, log, length)
+        handles += _nameless(axes, chart, own)
     if len(handles) > 1:
         axes.legend(
             handles=handles,
             loc="upper left",
-            bbox_to_anchor=(0.0, -0.12),
-            ncols=len(handles) if len(handles) <= LEGEND else ceil(len(handles) / 2),
-            fontsize=6.5,
+            bbox_to_anchor=(0.0, -0.55 / size[1]),
+            ncols=max(1, min(len(handles), int(size[0] / 1.15))),
+            fontsize=NAMES,
             frameon=False,
         )
+
+
+def _nameless(axes: Any, chart: Chart, tongues: Sequence[Tongue]) -> list[Any]:
+    """A sign where an unstable region has no tongue's name; what the legend says of it."""
+    regions = unnamed(chart, tongues)[:MOST_NAMELESS]
+    if not regions:
+        return []
+    places = [r.at if chart.axes[0].name == "Omega" else r.at[::-1] for r in regions]
+    look: Any = {"marker": "$?$", "ls": "none", "color": "tab:red", "ms": 4.0, "mew": 0.3}
+    axes.plot(*np.transpose(places), "o", ms=7.0, mfc="white", mec="none", alpha=0.85)
+    return list(axes.plot(*np.transpose(places), label="unstable, no tongue's name", **look))
 
 
 def _disagreement(figure: Any, axes: Any, chart: Chart) -> None:
@@ -220,34 +224,6 @@ def _disagreement(figure: Any, axes: Any, chart: Chart) -> None:
     of = symbol(chart.scenario.reading.variable)
     label = f"largest difference of a coefficient of $P$({of}),\nover the largest coefficient"
     figure.colorbar(shown, ax=axes, pad=0.015, label=label)
-
-
-def _name(axes: Any, chart: Chart, boundaries: Sequence[Tongue]) -> None:
-    """Names of the wider tongues at their far ends, none on top of another."""
-    x, y = chart.axes
-    along, other = (x, y) if x.name == "Omega" else (y, x)
-    tops = []
-    for tongue in boundaries:
-        end = min(other.high, float(tongue.y[-1]))
-        low, high = tongue.at(end) or (np.nan, np.nan)
-        if along.low < 0.5 * (low + high) < along.high:
-            tops.append((high - low, 0.5 * (low + high), end, of_resonance(tongue.resonance)))
-    taken: list[float] = []
-    upright = along is x
-    for _, centre, end, name in sorted(tops, reverse=True):
-        if all(abs(centre - t) > 0.03 * (along.high - along.low) for t in taken):
-            taken.append(centre)
-            axes.annotate(
-                name,
-                (centre, end) if upright else (end, centre),
-                xytext=(0, -3) if upright else (-3, 0),
-                textcoords="offset points",
-                rotation=90 if upright else 0,
-                ha="center" if upright else "right",
-                va="top" if upright else "center",
-                fontsize=6.5,
-                bbox={"boxstyle": "round,pad=0.15", "fc": "white", "ec": "none", "alpha": 0.7},
-            )
 
 
 def _marked(axes: Any, chart: Chart, marks: Sequence[Mark], label: str) -> list[Any]:
@@ -267,24 +243,29 @@ def _marked(axes: Any, chart: Chart, marks: Sequence[Mark], label: str) -> list[
     return handles
 
 
-def _title(chart: Chart, given: str) -> str:
+def _title(chart: Chart, given: str, characters: int) -> str:
     kind = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", type(chart.system).__name__)
-    text = ", ".join(f"{symbol(k)} = {of_value(v)}" for k, v in chart.scenario.fixed.items())
-    words = (given or kind.lower()).replace("$", r"\$") + (f": {text}" if text else "")
+    fixed = [f"{symbol(k)} = {of_value(v)}" for k, v in chart.scenario.fixed.items()]
+    name = (given or kind.lower()).replace("$", r"\$")
+    words = [*f"{name}{':' if fixed else ''}".split(" ")]
+    words += [f"{text}," for text in fixed[:-1]] + fixed[-1:]
     if chart.route == "both":
-        words += f"; the routes differ by {chart.disagreement:.0e} of P at most"
-        words += ", with the same matrices" if chart.shared_matrices else ""
-    return "\n".join(_wrapped(words.split(" ")))
+        words[-1] += ";"
+        words += f"the routes differ by {chart.disagreement:.0e} of P at most".split(" ")
+        if chart.shared_matrices:
+            words[-1] += ","
+            words += ["with", "the", "same", "matrices"]
+    return "\n".join(_wrapped(words, characters))
 
 
-def _wrapped(words: list[str]) -> list[str]:
+def _wrapped(words: list[str], characters: int) -> list[str]:
     """Lines of words, as long as they look: mathematics has letters that are not seen."""
     lines: list[str] = []
-    length = TITLE_WIDTH
+    length = characters
     for word in words:
         seen = len(re.sub(r"\\mathrm|\\[A-Za-z]+|[${}_\\]", lambda m: "x" * (len(m[0]) > 1), word))
         length += 1 + seen
-        if length > TITLE_WIDTH:
+        if length > characters:
             lines.append(word)
             length = seen
         else:

@@ -1,11 +1,10 @@
 """A chart as a file of any kind, by its suffix."""
 
-from collections.abc import Callable, Sequence
-from importlib.util import find_spec
+from collections.abc import Callable, Collection, Sequence
 from pathlib import Path
 
 from compare import chart_files
-from compare.chart_picture import NO_PICTURES, Mark, picture
+from compare.chart_picture import PICTURES, SIZE, Mark, check_drawn, picture
 from compare.charts.result import Chart
 from compare.edges.curves import Curve, boundaries
 from compare.edges.instabilities import Instability, instabilities
@@ -14,14 +13,25 @@ from compare.edges.tongue import Tongue
 from compare.explorer.page import check_explorable, explorer_page
 from compare.output import check_writable, write_whole
 
-PICTURES = (".png", ".svg")
 SUFFIXES = (*PICTURES, ".html", ".npz", ".json", ".csv")
 
 Stage = Callable[[str, int, int], object]
 
 
-def check_saved(path: Path, axes: int) -> None:
+def check_saved(
+    path: Path,
+    axes: Sequence[tuple[str, float]],
+    size: tuple[float, float] = SIZE,
+    log: Collection[str] = (),
+) -> None:
     """Refuse what could not be written, before anything is computed.
+
+    Parameters
+    ----------
+    path : Path
+    axes : sequence of (name, low)
+    size, log
+        Of a picture.
 
     Raises
     ------
@@ -33,12 +43,9 @@ def check_saved(path: Path, axes: int) -> None:
         raise ValueError(f"output = {str(path)!r}: must end in {', '.join(SUFFIXES)}")
     check_writable(path)
     if path.suffix == ".html":
-        check_explorable(axes)
+        check_explorable(len(axes))
     if path.suffix in PICTURES:
-        if axes != 2:
-            raise ValueError(f"output = {str(path)!r}: a picture needs two axes")
-        if find_spec("matplotlib") is None:
-            raise ValueError(NO_PICTURES)
+        check_drawn(axes, size, log)
 
 
 def has_tongues(chart: Chart, suffix: str) -> bool:
@@ -53,7 +60,7 @@ def edges_of(
     """The lines that a file of this kind has: tongues, or boundaries without names."""
     if has_tongues(chart, suffix):
         return tongues(chart, order, progress=lambda k, n: stage("resonances followed", k, n))
-    if suffix in PICTURES:
+    if suffix in PICTURES and len(chart.axes) == 2:
         stage("boundaries", 0, 0)
         return boundaries(chart)
     return ()
@@ -68,6 +75,8 @@ def content(
     show: str = "T",
     title: str = "",
     marks: Sequence[Mark] = (),
+    size: tuple[float, float] = SIZE,
+    log: Collection[str] = (),
 ) -> bytes:
     """What a file of this kind holds."""
     if suffix == ".npz":
@@ -79,12 +88,22 @@ def content(
     if suffix == ".html":
         own = [edge for edge in edges if isinstance(edge, Tongue)]
         return explorer_page(chart, title=title, tongues=own).encode()
-    return picture(chart, edges, suffix[1:], show, title=title, marks=marks, marks_label="printed")
+    return picture(
+        chart,
+        edges,
+        suffix[1:],
+        show,
+        title=title,
+        marks=marks,
+        marks_label="printed",
+        size=size,
+        log=log,
+    )
 
 
 def save(chart: Chart, path: Path, title: str = "") -> None:
     """Write it; see `Chart.save`."""
-    check_saved(path, len(chart.axes))
+    check_saved(path, [(a.name, a.low) for a in chart.axes])
     edges = edges_of(chart, path.suffix)
     own = tuple(edge for edge in edges if isinstance(edge, Tongue))
     found = instabilities(chart, own) if path.suffix == ".json" and own else ()

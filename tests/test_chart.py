@@ -245,7 +245,7 @@ def test_command_reads_a_file(tmp_path: Path, capsys: pytest.CaptureFixture[str]
         (["--x", "Omega", "1", "2", "x", "--y", "gamma", "0", "1", "5"], "not a whole number"),
         (["--x", "Omega", "1", "two", "5", "--y", "gamma", "0", "1", "5"], "not a number"),
         (["--x", "Omega", "1", "2", "5", "--set", "gamma"], "NAME=VALUE"),
-        (["--x", "Omega", "1", "2", "5", "--output", "a.pdf"], "must end in"),
+        (["--x", "Omega", "1", "2", "5", "--output", "a.doc"], "must end in"),
         (["nowhere.toml"], "cannot be read"),
         ([], "at least one parameter"),
     ],

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from compare.stability.roots import discriminant, growth_off_axis, real_range
+from compare.stability.roots import discriminant, growth, growth_off_axis, real_range
 
 RNG = np.random.default_rng(5)
 
@@ -43,3 +43,14 @@ def test_first_degree() -> None:
     least, largest = real_range(np.array([[1.0, -0.3], [1.0, 2.0]]))
     assert least.tolist() == largest.tolist() == [0.3, -2.0]
     assert discriminant(np.array([[1.0, -0.3]])).tolist() == [1.0]
+
+
+@pytest.mark.parametrize("large", [1e49, 1e120, -1e160, 1e290])
+@pytest.mark.parametrize("others", [(), (0.5,), (0.5, -0.2), (0.5, -0.2, 3.0)])
+def test_growth_of_what_a_square_would_take_out_of_the_floats(
+    large: float, others: tuple[float, ...]
+) -> None:
+    p = np.poly([large, *others])
+    found = growth(np.column_stack([p, np.poly([1.25, *others])]))
+    largest = np.arccosh(max([1.25, *others]))
+    assert found == pytest.approx([np.log(2.0) + np.log(abs(large)), largest], rel=1e-14)

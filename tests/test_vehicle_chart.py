@@ -124,7 +124,7 @@ def test_the_command_draws_it(kind: str, tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        ([UNIFORM, "--chart", "c.pdf"], "--chart c.pdf: must end in .png or .svg"),
+        ([UNIFORM, "--chart", "c.doc"], "--chart c.doc: must end in .png, .svg, .pdf, .html"),
         ([UNIFORM, "--chart", "gone/c.png"], "cannot be written"),
         ([UNIFORM, "--chart", "c.png", "--set", "gamma=0"], "gamma = 0: must not be 0"),
         ([UNIFORM, "--chart", "c.png", "--output", "c.png"], "c.png"),

@@ -218,6 +218,11 @@ def _all() -> dict[str, tuple[list[str], str]]:
     five = [*CHART, *more, "--also", "g", "0", "1", "3", "--output", "a.html"]
     add("page of five", five, "axes")
     add("page of disagreement", [*CHART, "--show", "disagreement", "--output", "a.html"], "show")
+    add("log from 0", [*CHART, "--output", "a.png", "--log", "gamma"], "gamma")
+    add("log of none", [*CHART, "--output", "a.pdf", "--log", "T0"], "T0")
+    for size in (("0", "3"), ("3", "1000"), ("nan", "3"), ("x", "3"), ("3",)):
+        add(f"size {size}", [*CHART, "--output", "a.svg", "--size", *size], "")
+    add("size of a table", [*CHART, "--output", "a.csv", "--size", "4", "3"], "--size")
     add("axis beside twice", [*three, "--also", "T0", "1", "2", "3"], "T0")
     add("tongues of three", [*three, "--tongues", "a.csv"], "tongues")
     no_Omega = ["chart", "--x", "T0", "1", "2", "3", *CHART[6:], "--set", "Omega=1"]

@@ -123,7 +123,7 @@ def chart(
     error, relative_error = _errors(fitted, alone)
     return Chart(
         scenario=wanted,
-        T=_argument(fitted, alone, wanted),
+        T=argument(fitted, alone, wanted),
         error=error,
         relative_error=relative_error,
         checked=checked,
@@ -168,8 +168,11 @@ def _errors(fitted: surface.Surface, alone: Sequence[Cells]) -> tuple[float, flo
     return worst, relative
 
 
-def _argument(fitted: surface.Surface, alone: Sequence[Cells], wanted: Scenario) -> Float:
-    """T on the grid, turned so that x comes last; infinite where P is, or where there is none."""
+def argument(fitted: surface.Surface, alone: Sequence[Cells], wanted: Scenario) -> Float:
+    """T on the grid, turned so that x comes last; infinite where P is, or where there is none.
+
+    Nan where there is neither a series nor an evaluation.
+    """
     T = np.full([axis.count for axis in wanted.axes], np.nan)
     Omega, eta = on_mesh(wanted)
     for cells in chain(from_series(fitted, wanted.axes), alone):

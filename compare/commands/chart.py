@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from compare import chart_files
-from compare.chart_picture import QUANTITIES, Mark
-from compare.chart_saving import PICTURES, check_saved, content, edges_of, has_tongues
+from compare.chart_picture import PICTURES, QUANTITIES, SIZE, Mark
+from compare.chart_saving import check_saved, content, edges_of, has_tongues
 from compare.chart_text import describe, ended, told, tongue_table
 from compare.charts.compute import chart
 from compare.charts.nodes import ROUTES
@@ -89,7 +89,10 @@ def configure(p: argparse.ArgumentParser) -> None:
             **(BESIDE if axis == "also" else {"help": "an axis"}),
         )
     p.add_argument(
-        "--output", type=Path, metavar="FILE", help="chart.png, .svg, .html, .npz, .json, .csv"
+        "--output",
+        type=Path,
+        metavar="FILE",
+        help="chart.png, .svg, .pdf, .html, .npz, .json, .csv",
     )
     p.add_argument(
         "--show",
@@ -101,6 +104,20 @@ def configure(p: argparse.ArgumentParser) -> None:
         "--certify",
         action="store_true",
         help="prove the verdict of every cell, of a chart of Omega and gamma (extra proof)",
+    )
+    p.add_argument(
+        "--size",
+        nargs=2,
+        type=float,
+        metavar=("WIDTH", "HEIGHT"),
+        help=f"of a picture, in inches (default {SIZE[0]} {SIZE[1]})",
+    )
+    p.add_argument(
+        "--log",
+        action="append",
+        default=[],
+        metavar="NAME",
+        help="an axis of a picture that is logarithmic; repeatable",
     )
     p.add_argument("--tongues", type=Path, metavar="FILE", help="edges of the tongues, as .csv")
     p.add_argument(
@@ -125,7 +142,7 @@ def run(options: argparse.Namespace) -> int:
     wanted = asked.with_axes(asked.asked(options), typed, options.set)
     if not wanted.axes and options.file:
         raise ValueError(f"{options.file}: has no [[axis]]; write axes there, or give --x and --y")
-    _check_files(options, len(wanted.axes))
+    _check_files(options, wanted.axes)
     _check_wanted(options, [name for name, *_ in wanted.axes])
     suffix = options.output.suffix if options.output else ""
     with stages() as stage, _workers(options) as workers:
@@ -146,6 +163,7 @@ def run(options: argparse.Namespace) -> int:
         if options.output is not None:
             stage("writing", 0, 0)
             words: dict[str, Any] = {"show": options.show, "title": wanted.title}
+            words |= {"size": _size(options), "log": options.log}
             made = content(result, suffix, edges, found, marks=_printed(result), **words)
             write_whole(options.output, made)
         if options.tongues is not None:
@@ -179,10 +197,13 @@ def _edges(
     return edges, instabilities(result, own), unnamed(result, own)
 
 
-def _check_files(options: argparse.Namespace, axes: int) -> None:
+def _check_files(
+    options: argparse.Namespace, axes: Sequence[tuple[str, float, float, int]]
+) -> None:
     """Refuse what could not be written, before anything is computed."""
     if options.output is not None:
-        check_saved(options.output, axes)
+        lows = [(name, low) for name, low, *_ in axes]
+        check_saved(options.output, lows, _size(options), options.log)
     if options.tongues is not None and options.tongues.suffix != ".csv":
         raise ValueError(f"tongues = {str(options.tongues)!r}: must end in .csv")
     for name, path in (("tongues", options.tongues), ("resume", options.resume)):
@@ -195,12 +216,23 @@ def _check_wanted(options: argparse.Namespace, axes: list[str]) -> None:
     """Refuse pictures and tongues that there will be none of, before anything is computed."""
     checks.count("order", options.order, least=1)
     drawn = options.output is not None and options.output.suffix in PICTURES
-    if options.show != "T" and not drawn:
-        raise ValueError(f"--show {options.show}: needs a picture, --output NAME.png or .svg")
+    for name, given in (
+        ("show", options.show != "T"),
+        ("size", options.size),
+        ("log", options.log),
+    ):
+        if given and not drawn:
+            raise ValueError(f"--{name}: needs a picture, --output NAME.png, .svg or .pdf")
+    if options.show == "disagreement" and len(axes) != 2:
+        raise ValueError("--show disagreement: needs two axes")
     if options.show == "disagreement" and options.route != "both":
         raise ValueError(f"--show disagreement: needs --route both, not {options.route}")
     if options.tongues is not None and (len(axes) != 2 or "Omega" not in axes):
         raise ValueError(f"--tongues {options.tongues}: needs a chart of Omega and one other")
+
+
+def _size(options: argparse.Namespace) -> tuple[float, float]:
+    return tuple(options.size) if options.size else SIZE
 
 
 @contextmanager

@@ -32,11 +32,14 @@ class Region:
     cells : int
     T : float
         The largest in it.
+    at : tuple of float
+        Omega and the other parameter where it is.
     """
 
     extent: tuple[tuple[str, float, float], ...]
     cells: int
     T: float
+    at: tuple[float, float]
 
 
 def unnamed(chart: Chart, tongues: Sequence[Tongue]) -> tuple[Region, ...]:
@@ -71,7 +74,9 @@ def unnamed(chart: Chart, tongues: Sequence[Tongue]) -> tuple[Region, ...]:
                 ("Omega", *_ends(Omega.points[columns])),
                 (y.name, *_ends(y.points[rows])),
             )
-            found.append(Region(extent, len(rows), float(T[rows, columns].max())))
+            top = int(np.argmax(T[rows, columns]))
+            at = float(Omega.points[columns[top]]), float(y.points[rows[top]])
+            found.append(Region(extent, len(rows), float(T[rows[top], columns[top]]), at))
     return tuple(sorted(found, key=lambda region: -region.T))
 
 

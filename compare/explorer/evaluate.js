@@ -66,6 +66,8 @@ const MOST_ROUNDS = 200;
 function roots(p, re, im) {
     const n = p.length - 1;
     if (n === 1) { re[0] = -p[1]; im[0] = 0; return true; }
+    // the closed forms have third powers
+    if (p.some((c) => Math.abs(c) > 1e50)) return aberth(p, n, re, im);
     if (n === 2) { quadratic(p[1], p[2], re, im, 0); return true; }
     if (n === 3) {
         const lone = mostIsolated(p[1], p[2], p[3]), b = p[1] + lone;

@@ -11,6 +11,9 @@ Complex = NDArray[np.complexfloating[Any, Any]]
 CHUNK = 8192
 """Polynomials at a time: the dozen arrays of the closed form stay in the cache."""
 
+LARGE = 1e50
+"""Coefficients beyond which the closed forms, with their third powers, may leave the floats."""
+
 
 def growth(polynomials: Float) -> Float:
     """Largest ln R of each polynomial, Eq. (7.1.2).
@@ -29,7 +32,17 @@ def growth(polynomials: Float) -> Float:
     result = np.empty(count)
     for start in range(0, count, CHUNK):
         part = slice(start, start + CHUNK)
-        result[part] = _growth(polynomials[:, part])
+        result[part] = _within_floats(polynomials[:, part])
+    return result
+
+
+def _within_floats(p: Float) -> Float:
+    far = np.any(np.abs(p) > LARGE, axis=0)
+    if not np.any(far):
+        return _growth(p)
+    result = np.empty(p.shape[1])
+    result[~far] = _growth(p[:, ~far])
+    result[far] = log_R(companion_roots(p[:, far].T)).max(axis=1)
     return result
 
 
@@ -181,6 +194,12 @@ def _conjugate(x: Float, y: Float) -> Float:
 
     (|z + 1| + |z - 1|)/2 - 1, written without cancellation.
     """
+    size = np.hypot(x, y)
+    if np.any(size > LARGE):  # ln 2|z| to the last bit, where a square would leave the floats
+        large = size > LARGE
+        x, y = np.where(large, 1.0, x), np.where(large, 0.0, y)
+        beyond = np.log(2.0) + np.log(np.where(large, size, 1.0))
+        return np.where(large, beyond, _conjugate(x, y))
     plus, minus = np.abs(x + 1.0), np.abs(1.0 - x)
     far, near = np.hypot(plus, y), np.hypot(minus, y)
     with np.errstate(invalid="ignore", divide="ignore"):

@@ -5,7 +5,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from compare.chart_picture import Mark, picture
+from compare.chart_picture import PICTURES, Mark, picture
 from compare.charts.axis import Axis
 from compare.charts.compute import chart
 from compare.charts.result import Chart
@@ -17,7 +17,7 @@ from compare.vehicle.outlines import outlines
 from compare.vehicle.study import Study
 from hill import Vehicle
 
-PICTURES = (".png", ".svg", ".html")
+SUFFIXES = (*PICTURES, ".html")
 
 # Points of the picture's axes: as many as it has dots, about.
 COUNTS = (600, 300)
@@ -41,8 +41,8 @@ BEYOND = 1.04
 
 def check_charted(vehicle: Vehicle, gamma: float, eta: float, path: Path) -> None:
     """Refuse a chart that there will be none of, before anything is computed."""
-    if path.suffix not in PICTURES:
-        raise ValueError(f"--chart {path}: must end in {' or '.join(PICTURES)}")
+    if path.suffix not in SUFFIXES:
+        raise ValueError(f"--chart {path}: must end in {', '.join(SUFFIXES)}")
     if path.suffix == ".html":
         check_explorable(2)
     system, forcing = _as_charts_have_it(vehicle, eta)
@@ -99,7 +99,7 @@ def _range(study: Study, top: float) -> tuple[float, float]:
 
 
 def drawn(title: str, study: Study, kind: str, stage: Callable[[str, int, int], Any]) -> bytes:
-    """The chart as PNG, SVG or a page, the tongues by their names; pictures mark where it runs."""
+    """The chart as a picture or a page, the tongues by their names; pictures mark where it runs."""
     made, edges = charted(study, stage)
     stage("picture", 0, 0)
     return shown(title, study, made, edges, kind)
