@@ -1,8 +1,11 @@
 """The pages: complete, linked, named, the numbers those of the JSON, safe whatever a file says."""
 
+import importlib.resources
+import inspect
 import json
 import posixpath
 import sys
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -15,11 +18,12 @@ from compare import verify
 from compare.__main__ import main
 from compare.commands import report as commands_report
 from compare.output_folder import LIST, check_folder, write_folder
-from compare.pages import mathematics, pictures, printed, printed_row
+from compare.pages import mathematics, own, pictures, printed, printed_row, render
 from compare.pages.drawing import Frame
-from compare.pages.motion import PERIODS, SHOWN, Motion, motion
-from compare.pages.render import render
+from compare.pages.motion import PERIODS, SHOWN, Motion, let_go
+from compare.pages.render import rendered
 from compare.pages.site import Site
+from compare.report.claims.both_routes import RoutesDisagree
 from compare.report.claims.run import judge
 from compare.report.errata import all_errata
 from compare.report.proofs import prove_row
@@ -62,7 +66,7 @@ def site() -> Site:
 
 @cache
 def files() -> dict[str, bytes]:
-    return render(site())
+    return rendered(site())
 
 
 @cache
@@ -174,6 +178,15 @@ def test_the_navigation_knows_where_it_is() -> None:
         path, _ = target(name, here.attributes["href"])
         assert path == name or name.startswith("rows/")
         assert (here.attributes["aria-current"] == "page") == (path == name)
+
+
+def test_every_template_is_used() -> None:
+    """And what is used is there: a set of pages of one's own has its own tests."""
+    folder = importlib.resources.files("compare") / "pages" / "templates"
+    there = {file.name for file in folder.iterdir()}
+    code = "".join(inspect.getsource(module) for module in (printed, own, render))
+    text = code + "".join((folder / name).read_text() for name in there if name.endswith(".html"))
+    assert {name for name in there if f'"{name}"' not in text} == set()
 
 
 # ---- the numbers ---------------------------------------------------------------------------------
@@ -340,7 +353,7 @@ def test_growth_is_drawn_with_the_slope_of_T() -> None:
 def test_the_motion_of_a_row_grows_as_its_T_says() -> None:
     row = next(row for row in all_rows() if row.id == "T1-12")
     T = records()["T1-12"]["floquet"]["T"]
-    found = motion(equation(row, 2), T, printed_row.COORDINATES)
+    found = let_go(equation(row, 2), T, printed_row.COORDINATES)
     assert isinstance(found, Motion)
     assert found.largest.shape == (PERIODS, 3)
     assert found.shown == SHOWN
@@ -353,7 +366,7 @@ def test_the_motion_of_a_row_grows_as_its_T_says() -> None:
 def test_of_many_coordinates_those_that_move_farthest_are_drawn() -> None:
     n = 9
     F = np.diag(np.append(np.full(n - 1, 30.0), -0.01))
-    found = motion(HillEquation(F=F, G=np.eye(n), gamma=0.1, Omega=2.0), 0.2)
+    found = let_go(HillEquation(F=F, G=np.eye(n), gamma=0.1, Omega=2.0), 0.2)
     assert isinstance(found, Motion)
     assert found.of == n
     assert len(found.names) == found.q.shape[1] == found.largest.shape[1] == 6
@@ -362,13 +375,13 @@ def test_of_many_coordinates_those_that_move_farthest_are_drawn() -> None:
 
 def test_a_motion_beyond_a_float_is_told() -> None:
     fast = HillEquation(F=[[-100.0]], G=[[0.0]], gamma=0.0, Omega=1.0)
-    found = motion(fast, 20.0)
+    found = let_go(fast, 20.0)
     assert isinstance(found, Motion)
     assert 0 < len(found.largest) < PERIODS
     assert "stopped" in found.stopped
     assert np.all(np.isfinite(found.largest))
     first_order = PeriodicEquation.first_order(A=Fourier([[-0.1]]), Omega=1.0)
-    decays = motion(first_order, -0.2)
+    decays = let_go(first_order, -0.2)
     assert isinstance(decays, Motion)
     assert decays.names == ("x_1",)
     drawn = pictures.growth(decays)
@@ -528,7 +541,7 @@ def test_the_command_writes_the_pages(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(commands_report, "verify", lambda **_: report())
-    monkeypatch.setattr(commands_report, "motion", lambda *_: grown(0.01))
+    monkeypatch.setattr(commands_report, "let_go", lambda *_: grown(0.01))
     figures = tmp_path / "figures"
     figures.mkdir()
     for name in ("figure03.svg", "figure03.png", "figure03.csv", "other.svg"):
@@ -543,6 +556,57 @@ def test_the_command_writes_the_pages(
     assert drawn == {"figures/figure03.csv", "figures/figure03.svg"}
     # a few megabytes: a mail attachment
     assert sum(map(len, written.values())) < 10e6
+
+
+@pytest.fixture
+def quick(monkeypatch: pytest.MonkeyPatch) -> pytest.MonkeyPatch:
+    """The command with what it computes at hand."""
+    known = prove_row(all_rows()[0])
+    monkeypatch.setattr(commands_report, "verify", lambda **_: report())
+    monkeypatch.setattr(commands_report, "let_go", lambda *_: "")
+    monkeypatch.setattr(commands_report, "prove_row", lambda row: replace(known, row=row))
+    monkeypatch.setattr(commands_report, "tasks", lambda _: [(27,)])
+    return monkeypatch
+
+
+def test_figures_are_drawn_and_rows_proven_where_that_is_asked_for(
+    quick: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    place = tmp_path / "pages"
+    words = ["report", "--output", str(place), "--draw", "--prove", "--no-claims"]
+    assert main(words) == 0
+    written = tree(place)
+    assert {name for name in written if name.startswith("figures/")} == {
+        "figures/figure27.csv",
+        "figures/figure27.svg",
+    }
+    assert all(
+        b"Balls that hold the true values" in data
+        for name, data in written.items()
+        if name.startswith("rows/")
+    )
+    assert b"89 of 89 verdicts are proven" in written["index.html"]
+
+
+def test_the_status_says_whether_all_is_known(
+    quick: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    first, *others = report().outcomes
+    lost = replace(report(), outcomes=(replace(first, expected=False), *others))
+    quick.setattr(commands_report, "verify", lambda **_: lost)
+    words = ["report", "--output", str(tmp_path / "pages")]
+    assert main([*words, "--no-claims"]) == 1
+    assert (tmp_path / "pages" / "index.html").is_file()
+
+    def disagree(**_: Any) -> None:
+        raise RoutesDisagree("T at 2 omega_(B): the routes differ")
+
+    quick.setattr(commands_report, "judge", disagree)
+    before = tree(tmp_path / "pages")
+    capsys.readouterr()
+    assert main(words) == 1
+    assert capsys.readouterr().err == "verify report: T at 2 omega_(B): the routes differ\n"
+    assert tree(tmp_path / "pages") == before
 
 
 def test_without_the_extra_one_line_says_so(

@@ -17,10 +17,10 @@ from compare.commands.terminal import stages
 from compare.jobs.workers import mapper
 from compare.output_folder import check_folder, write_folder
 from compare.pages import own, printed
-from compare.pages.motion import Motion, motion
+from compare.pages.motion import Motion, let_go
 from compare.pages.own_chart import charted, vehicle_charted
 from compare.pages.printed_row import COORDINATES
-from compare.pages.render import render
+from compare.pages.render import rendered
 from compare.pages.render import require as require_templates
 from compare.pages.site import Site
 from compare.proofs import prove
@@ -46,8 +46,8 @@ examples:
                                       with the figures that `verify figures`
                                       wrote into ./figures
   verify report --output pages --draw --prove --workers 2
-                                      draw the figures too, which takes minutes,
-                                      and prove every row (extra `proof`)
+                                      compute and draw the figures too, and prove
+                                      every row (extra `proof`)
   verify report mine.toml --set gamma=0.2 --output pages
                                       the same of a system of one's own: both
                                       routes, its chart, its resonances
@@ -78,11 +78,9 @@ def configure(p: argparse.ArgumentParser) -> None:
         "--figures", type=Path, metavar="DIR", help="take the figures that are there, svg or png"
     )
     p.add_argument("--draw", action="store_true", help="compute and draw them (extra plot)")
+    p.add_argument("--prove", action="store_true", help="prove every verdict (extra proof)")
     p.add_argument(
-        "--prove", action="store_true", help="prove every verdict, half a minute (extra proof)"
-    )
-    p.add_argument(
-        "--no-claims", action="store_true", help="leave out the conclusions, half of the time"
+        "--no-claims", action="store_true", help="leave out the conclusions, which take longest"
     )
     p.add_argument(
         "--workers", type=int, default=1, metavar="N", help="processes, -1 for one a core"
@@ -104,7 +102,7 @@ def run(options: argparse.Namespace) -> int:
         except RoutesDisagree as error:
             print(f"verify report: {error}", file=sys.stderr)
             return 1
-        files = render(site, lambda done, of: stage("pages", done, of))
+        files = rendered(site, lambda done, of: stage("pages", done, of))
         stage("writing", 0, 0)
         write_folder(options.output, files, site.about)
     print(f"written: {options.output / 'index.html'}, {len(site.pages)} pages")
@@ -156,7 +154,7 @@ def _of_ones_own(found: Described, prove_it: bool, stage: Stage) -> tuple[Site, 
         if len(x.hill.z):
             edge = math.cosh(math.pi * own_equation.damping / own_equation.Omega)
         stage("motion", 0, 0)
-        moving = motion(own_equation, x.T)
+        moving = let_go(own_equation, x.T)
         if prove_it:
             stage("proof", 0, 0)
             proof = proof_record(prove(found.system, forcing))
@@ -188,7 +186,7 @@ def _of_the_report(
     for done, outcome in enumerate(report.outcomes):
         stage("motions", done, len(rows))
         own_equation = equation(outcome.row, outcome.modes)
-        motions[outcome.row.id] = motion(own_equation, outcome.floquet.T, COORDINATES)
+        motions[outcome.row.id] = let_go(own_equation, outcome.floquet.T, COORDINATES)
     proofs = []
     with mapper(options.workers) as each:
         if options.prove:

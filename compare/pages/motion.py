@@ -64,7 +64,7 @@ class Motion:
         return round(float(self.tau[-1]) / self.period)
 
 
-def motion(equation: Any, T: float, names: tuple[str, ...] = ()) -> Motion | str:
+def let_go(equation: Any, T: float, names: tuple[str, ...] = ()) -> Motion | str:
     """Let every coordinate go at 1, from rest; or in words why there is no motion to be shown.
 
     Parameters

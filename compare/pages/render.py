@@ -23,7 +23,7 @@ def require() -> None:
         raise ValueError(MISSING) from None
 
 
-def render(site: Site, progress: Callable[[int, int], Any] | None = None) -> dict[str, bytes]:
+def rendered(site: Site, progress: Callable[[int, int], Any] | None = None) -> dict[str, bytes]:
     """All files of a set of pages, by path.
 
     Parameters
