@@ -153,3 +153,9 @@ def test_the_reference_has_every_public_name(site: Path) -> None:
         page = text_of(site / "reference" / f"{package}.html")
         for name in __import__(package).__all__:
             assert f'id="{package}.{name}"' in page, name
+
+
+def test_mathematics_is_mathematics(site: Path) -> None:
+    theory = text_of(site / "theory.html")
+    assert theory.count("<math") > 100
+    assert "merror" not in theory

@@ -3,6 +3,7 @@
 The translation is that of docutils; Sphinx's own choice, MathJax, loads a script from elsewhere.
 """
 
+import re
 from typing import Any
 
 from docutils import nodes
@@ -11,13 +12,18 @@ from sphinx.application import Sphinx
 from sphinx.errors import SphinxError
 from sphinx.util.math import get_node_equation_number
 
+APPLIED = re.compile(r"<mo>&ApplyFunction;</mo>(?=\s*<(?!/mrow|mo\b))")
+"""A function before anything but a bracket."""
+
 
 def as_mathml(formula: str, *, block: bool) -> str:
     """A formula, or a build that fails: one that cannot be read is not printed raw."""
     try:
-        return str(latex2mathml.tex2mathml(formula, as_block=block))
+        found = str(latex2mathml.tex2mathml(formula, as_block=block))
     except MathError as error:
         raise SphinxError(f"mathematics: {formula!r}: {error}") from error
+    # browsers set cos x as cosx
+    return APPLIED.sub(r"\g<0><mspace width='0.17em'/>", found)
 
 
 def inline(self: Any, node: nodes.math) -> None:
