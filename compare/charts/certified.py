@@ -18,7 +18,7 @@ from hill import HillEquation, SteppedBeam, UniformBeam
 from hill.decimals import fraction
 
 MAX_CELLS = 4_000_000
-"""Some minutes, and a gigabyte."""
+"""A million take 40 s of one core and 0.8 GB, chart included."""
 
 
 @dataclass(frozen=True, eq=False)

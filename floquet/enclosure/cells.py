@@ -112,7 +112,8 @@ def _between_a_pair(coefficients: Float, z: Any) -> Float:
     twice = np.arange(n, 1, -1) * np.arange(n - 1, 0, -1)
     bend = np.einsum("mj,mkj->mk", monic[:, :-2] * twice, powers[:, :, 2:])
     square, other = (n - 1) * slope**2, n * value * bend
-    best = np.argmin((square - other) / (square + np.abs(other)), axis=1)
+    with np.errstate(invalid="ignore"):
+        best = np.argmin((square - other) / (square + np.abs(other)), axis=1)
     return np.asarray(x[np.arange(m), best])
 
 

@@ -1,4 +1,8 @@
-"""Damped z by Smith's discs, whose middles move over a rectangle as the roots do."""
+"""Damped z by Smith's discs, whose middles move over a rectangle as the roots do.
+
+Moving points are arrays (m, n, 6), a `Local` without a rest each; where they are is a choice, and
+only what is said of the discs about them has to hold.
+"""
 
 from typing import Any
 
