@@ -16,11 +16,12 @@ from systems import SPECIAL, random_system
 
 import compare.commands.sensitivity as command
 from benchmarks.honesty.slopes import slopes
+from compare import chart
 from compare.__main__ import main
 from floquet import Derivatives, beam_sensitivities, monodromy, sensitivities
 from floquet.sensitivity.derivative import differentiate
 from floquet.sensitivity.numbers import moved_by
-from hill import HillEquation, SteppedBeam, UniformBeam, characteristic
+from hill import HillEquation, SteppedBeam, UniformBeam, Vehicle, characteristic
 
 UNIFORM = UniformBeam(T0=20.0, K_theta=0.5, xi_G=0.5)
 STEPPED = SteppedBeam(T0=20.0, K_theta=1.0, xi_G=0.5, xi_c=0.6, area_ratio=0.6, inertia_ratio=0.6)
@@ -450,3 +451,31 @@ def test_bad_input_is_one_line(
     line = refusal(["sensitivity", *words], capsys)
     assert line.startswith("verify sensitivity: ")
     assert says in line
+
+
+def test_a_vehicle_of_a_file_with_damping_of_its_own(capsys: pytest.CaptureFixture[str]) -> None:
+    """Its eta is the forcing's then, and the T that is moved is the vehicle's own."""
+    file = Path(__file__).parent.parent / "examples" / "uniform.toml"
+    words = ["--set", "Omega=7.11", "--set", "gamma=0.2", "--format", "json"]
+    assert main(["sensitivity", str(file), *words]) == 0
+    found = json.loads(capsys.readouterr().out)
+    vehicle = Vehicle.from_file(file)
+
+    def T(**values: float) -> float:
+        return characteristic(vehicle.varied(**values).equation(7.11, 0.2)).T
+
+    assert found["T"] == pytest.approx(T(), abs=1e-9)
+    assert found["left_out"] == ["K_rate"]
+    for name in ("EI_1", "m_1", "thrust", "K_theta"):
+        (own,) = (p for p in found["parameters"] if p["name"] == name)
+        step = 1e-5 * own["value"]
+        slope = (T(**{name: own["value"] + step}) - T(**{name: own["value"] - step})) / (2 * step)
+        # the difference's own error is of the order of the step's square
+        assert own["dT"] == pytest.approx(slope, rel=1e-5)
+        assert abs(own["dT"]) > 1e3 * own["dT_error"]
+
+
+def test_damping_of_its_own_beside_the_forcing_s_is_refused_by_a_chart() -> None:
+    vehicle = Vehicle.from_file(Path(__file__).parent.parent / "examples" / "uniform.toml")
+    with pytest.raises(ValueError, match=r"adds damping of its own, 0\.0628319, to eta"):
+        chart(vehicle, [("Omega", 3.0, 8.0, 4), ("gamma", 0.0, 0.2, 3)])

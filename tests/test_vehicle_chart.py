@@ -14,6 +14,7 @@ from compare.chart_ticks import ticks_in_cycles
 from compare.edges.tongue import RANGE, TIP
 from compare.vehicle import charted as module
 from compare.vehicle.charted import charted
+from compare.vehicle.damping import damping_as_forcing
 from compare.vehicle.study import Study, study
 from hill import Damping, Vehicle
 
@@ -154,6 +155,6 @@ def test_a_general_vehicle_is_not_refused(monkeypatch: Any, tmp_path: Path) -> N
 
 def test_damping_of_its_own_is_moved_to_the_forcing() -> None:
     v = Vehicle.from_file(UNIFORM)
-    system, forcing = module._as_charts_have_it(v, 0.01)
+    system, eta = damping_as_forcing(v, 0.01)
     assert system.damping == Damping()
-    assert forcing == {"eta": 0.01 + v.damping.eta}
+    assert eta == 0.01 + v.damping.eta

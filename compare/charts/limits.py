@@ -90,6 +90,12 @@ def _check_promise(system: Any, model: HillEquation, forcing: Values) -> None:
         and np.array_equal(other.G, model.G)
         and (other.Omega, other.gamma, other.eta) == tuple(asked.values())
     )
+    own = model.damping - eta if np.ndim(model.eta) == 0 else 0.0
+    if own and not kept:
+        raise ValueError(
+            f"{type(system).__name__}: adds damping of its own, {own:g}, to eta; leave it out and "
+            "give it as the forcing's eta, or T is read with the wrong one"
+        )
     if not kept:
         raise ValueError(
             f"{type(system).__name__}.depends_on_Omega = {moves}: promises F and G that do not "

@@ -8,7 +8,8 @@ from typing import Any
 from compare import system_file
 from compare.report.tables import STEPPED, UNIFORM
 from compare.system_file import Described
-from hill import SteppedBeam, UniformBeam, checks
+from compare.vehicle.damping import damping_as_forcing
+from hill import SteppedBeam, UniformBeam, Vehicle, checks
 
 BEAMS = ("uniform", "stepped")
 
@@ -51,7 +52,14 @@ def asked(options: argparse.Namespace) -> Described:
     else:
         uniform: dict[str, Any] = dict(UNIFORM)
         found = Described(UniformBeam(**uniform), kind="uniform", title="uniform beam")
-    return system_file.with_settings(found, settings(options.set))
+    return _damping_in_forcing(system_file.with_settings(found, settings(options.set)))
+
+
+def _damping_in_forcing(found: Described) -> Described:
+    if not isinstance(found.system, Vehicle) or found.system.damping.eta == 0.0:
+        return found
+    system, eta = damping_as_forcing(found.system, found.forcing.get("eta", 0.0))
+    return replace(found, system=system, forcing={**found.forcing, "eta": eta})
 
 
 def with_axes(found: Described, typed: list[list[str]], set_words: list[str]) -> Described:

@@ -100,6 +100,10 @@ def show(wanted: Described, found: SystemSensitivities, console: Console) -> Non
     if not any(slope for name, slope in found.dT.items() if name != "eta"):
         console.print()
         say(console, "Stable, and not on a boundary: T = -eta, and nothing else moves it.")
+    if found.left_out:
+        console.print()
+        names = ", ".join(found.left_out)
+        say(console, f"Left out, since other values take the equation out of Hill's form: {names}.")
     if found.shared_matrices:
         console.print()
         say(console, "The matrices are the system's own; the time domain has no others for it.")
@@ -112,6 +116,7 @@ def content(wanted: Described, found: SystemSensitivities) -> dict[str, Any]:
     return provenance(_about(wanted, found)) | {
         "T": found.T,
         "remark": found.remark,
+        "left_out": list(found.left_out),
         "z": _pairs(found.z),
         "parameters": [
             {

@@ -1,7 +1,6 @@
 """A study's chart: T over the pulsation's frequency in cycles and its ratio, as a picture."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +12,7 @@ from compare.charts.scenario import scenario
 from compare.edges.on_chart import tongues
 from compare.edges.tongue import Tongue
 from compare.explorer.page import check_explorable, explorer_page
+from compare.vehicle.damping import damping_as_forcing
 from compare.vehicle.outlines import outlines
 from compare.vehicle.study import Study
 from hill import Vehicle
@@ -45,10 +45,10 @@ def check_charted(vehicle: Vehicle, gamma: float, eta: float, path: Path) -> Non
         raise ValueError(f"--chart {path}: must end in {', '.join(SUFFIXES)}")
     if path.suffix == ".html":
         check_explorable(2)
-    system, forcing = _as_charts_have_it(vehicle, eta)
+    system, in_all = damping_as_forcing(vehicle, eta)
     scale = float(abs(vehicle.natural_frequencies()[-1]))
     try:
-        scenario(system, (Axis("Omega", scale, 2.0 * scale, 2), _ratios(gamma, 2)), forcing)
+        scenario(system, (Axis("Omega", scale, 2.0 * scale, 2), _ratios(gamma, 2)), {"eta": in_all})
     except ValueError as why:
         raise ValueError(f"--chart {path}: {why}") from None
 
@@ -66,7 +66,8 @@ def charted(study: Study, stage: Callable[[str, int, int], Any]) -> tuple[Chart,
     stage : callable
         As of `study`.
     """
-    system, forcing = _as_charts_have_it(study.vehicle, study.eta)
+    system, eta = damping_as_forcing(study.vehicle, study.eta)
+    forcing = {"eta": eta}
     opens = min((row.critical for row in study.rows if row.critical), default=0.0)
     top = min(max(OVER_OWN * abs(study.gamma), OVER_LOWEST * opens), LARGEST)
     low, high = _range(study, top)
@@ -123,9 +124,3 @@ def shown(title: str, study: Study, made: Chart, edges: Sequence[Tongue], kind: 
 
 def _ratios(top: float, count: int) -> Axis:
     return Axis("gamma", 0.0, abs(top), count)
-
-
-def _as_charts_have_it(vehicle: Vehicle, eta: float) -> tuple[Vehicle, dict[str, float]]:
-    """Its damping of all coordinates alike as the forcing's eta: a chart's T is read with that."""
-    own = vehicle.damping
-    return replace(vehicle, damping=replace(own, eta=0.0)), {"eta": eta + own.eta}

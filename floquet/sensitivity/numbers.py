@@ -13,7 +13,7 @@ import numpy as np
 from floquet.arrays import EPS, Float
 from floquet.sensitivity.derivative import differentiate
 from floquet.witness import matrices_of
-from hill import HillEquation, varied
+from hill import HillEquation, PeriodicEquation, varied
 
 FORCING = ("Omega", "gamma", "eta")
 
@@ -59,6 +59,8 @@ def moved_by(
 
     Raises
     ------
+    OutOfForm
+        With other values of the parameter the equation is not Hill's.
     ValueError
         The value is too close to where an element is singular; an element is not linear that the
         parameter says is.
@@ -83,6 +85,8 @@ def moved_by(
         raise ValueError(
             f"{name}: says that it moves {', '.join(ways.moves)}, and it moves others too"
         ) from None
+    except _General:
+        raise OutOfForm(f"{name}: with other values of it the equation is not Hill's") from None
     if moving:
 
         def inner(x: float) -> Float:
@@ -105,6 +109,14 @@ def moved_by(
                 "differentiate"
             ) from None
     return _named(base, found, error)
+
+
+class OutOfForm(ValueError):
+    """A parameter, zero as a rule, that takes an equation out of Hill's form: no F, no G."""
+
+
+class _General(Exception):
+    """Not Hill's form."""
 
 
 class _NotLinear(Exception):
@@ -132,8 +144,10 @@ def _ways(system: Any, name: str) -> _Ways:
     return _Ways(0.0 if name == "Omega" else -np.inf, np.inf)
 
 
-def _stack(e: HillEquation, asked: Mapping[str, float]) -> Float:
+def _stack(e: HillEquation | PeriodicEquation, asked: Mapping[str, float]) -> Float:
     """F, G, each H, then the forcing less what was asked for, (k, n, n)."""
+    if not isinstance(e, HillEquation):
+        raise _General
     n = len(e.F)
     corner = np.zeros((n, n))
     corner[0, 0] = 1.0

@@ -13,7 +13,7 @@ import numpy as np
 
 from floquet.arrays import EPS, Complex, Float
 from floquet.sensitivity.equation import Derivatives, sensitivities
-from floquet.sensitivity.numbers import FORCING, Moved, moved_by
+from floquet.sensitivity.numbers import FORCING, Moved, OutOfForm, moved_by
 from floquet.witness import matrices_of
 from hill import HillEquation, SteppedBeam, UniformBeam, parameter_values
 from hill.precision import remark_of_slopes
@@ -40,6 +40,9 @@ class SystemSensitivities:
         Whether the matrices are the system's own, because the witness has none.
     remark : str
         Which derivatives of T are known to less than nine digits; empty where none is.
+    left_out : tuple of str
+        Parameters that are not differentiated: any other value of them, a control's rate for one,
+        takes the equation out of Hill's form. See `general_sensitivities`.
     """
 
     values: dict[str, float]
@@ -51,6 +54,7 @@ class SystemSensitivities:
     dz_error: dict[str, Float]
     shared_matrices: bool
     remark: str
+    left_out: tuple[str, ...] = ()
 
 
 BeamSensitivities = SystemSensitivities
@@ -93,14 +97,18 @@ def system_sensitivities(
     s = sensitivities(model)
     own = {name: x for name, x in parameter_values(system).items() if isfinite(x)}
     values = {name: float(x) for name, x in forcing.items()} | own
-    T, z = {}, {}
+    T, z, left_out = {}, {}, []
     for name, value in values.items():
-        moved = moved_by(system, name, **forcing, value=value)
+        try:
+            moved = moved_by(system, name, **forcing, value=value)
+        except OutOfForm:
+            left_out.append(name)
+            continue
         T[name] = _chain(name, s.dT, s.dT_error, moved)
         z[name] = _chain(name, s.dz, s.dz_error, moved)
-    known = {name: (*T[name], value) for name, value in values.items()}
+    known = {name: (*found, values[name]) for name, found in T.items()}
     return SystemSensitivities(
-        values=values,
+        values={name: values[name] for name in T},
         T=s.T,
         z=s.z,
         dT={name: float(found) for name, (found, _) in T.items()},
@@ -109,6 +117,7 @@ def system_sensitivities(
         dz_error={name: error for name, (_, error) in z.items()},
         shared_matrices=shared,
         remark=remark_of_slopes(known),
+        left_out=tuple(left_out),
     )
 
 
