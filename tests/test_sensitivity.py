@@ -475,7 +475,7 @@ def test_a_vehicle_of_a_file_with_damping_of_its_own(capsys: pytest.CaptureFixtu
         assert abs(own["dT"]) > 1e3 * own["dT_error"]
 
 
-def test_damping_of_its_own_beside_the_forcing_s_is_refused_by_a_chart() -> None:
+def test_damping_of_its_own_beside_an_axis_of_eta_is_refused() -> None:
     vehicle = Vehicle.from_file(Path(__file__).parent.parent / "examples" / "uniform.toml")
     with pytest.raises(ValueError, match=r"adds damping of its own, 0\.0628319, to eta"):
-        chart(vehicle, [("Omega", 3.0, 8.0, 4), ("gamma", 0.0, 0.2, 3)])
+        chart(vehicle, [("eta", 0.0, 0.1, 4), ("gamma", 0.0, 0.2, 3)], forcing={"Omega": 3.0})

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from compare.charts.axis import Axis
 from compare.charts.limits import checked, own_equation, slow_enough
 from compare.stability.reading import Reading, reading_of
+from compare.vehicle.damping import damping_as_forcing
 from floquet.witness import maker
 from hill import HillEquation, PeriodicEquation, Singular, System, Vehicle, checks
 from hill.oscillations.steady import mean_frequencies
@@ -228,9 +229,8 @@ def scenario(
     own = {p.name: p.smooth for p in system.parameters}
     drawn = tuple(_drawn(axis, own) for axis in axes)
     if isinstance(system, Vehicle) and "eta" not in [axis.name for axis in drawn]:
-        # T is read with the forcing's eta: a vehicle's own goes there
-        forcing = {**(forcing or {}), "eta": (forcing or {}).get("eta", 0.0) + system.damping.eta}
-        system = replace(system, damping=replace(system.damping, eta=0.0))
+        system, in_all = damping_as_forcing(system, (forcing or {}).get("eta", 0.0))
+        forcing = {**(forcing or {}), "eta": in_all}
     given = {"eta": 0.0, **(forcing or {})}
     names = [axis.name for axis in drawn]
     _check_names(names, list(own), forcing or {})

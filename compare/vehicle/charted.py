@@ -12,7 +12,6 @@ from compare.charts.scenario import scenario
 from compare.edges.on_chart import tongues
 from compare.edges.tongue import Tongue
 from compare.explorer.page import check_explorable, explorer_page
-from compare.vehicle.damping import damping_as_forcing
 from compare.vehicle.outlines import outlines
 from compare.vehicle.study import Study
 from hill import Vehicle
@@ -45,10 +44,9 @@ def check_charted(vehicle: Vehicle, gamma: float, eta: float, path: Path) -> Non
         raise ValueError(f"--chart {path}: must end in {', '.join(SUFFIXES)}")
     if path.suffix == ".html":
         check_explorable(2)
-    system, in_all = damping_as_forcing(vehicle, eta)
     scale = float(abs(vehicle.natural_frequencies()[-1]))
     try:
-        scenario(system, (Axis("Omega", scale, 2.0 * scale, 2), _ratios(gamma, 2)), {"eta": in_all})
+        scenario(vehicle, (Axis("Omega", scale, 2.0 * scale, 2), _ratios(gamma, 2)), {"eta": eta})
     except ValueError as why:
         raise ValueError(f"--chart {path}: {why}") from None
 
@@ -66,8 +64,7 @@ def charted(study: Study, stage: Callable[[str, int, int], Any]) -> tuple[Chart,
     stage : callable
         As of `study`.
     """
-    system, eta = damping_as_forcing(study.vehicle, study.eta)
-    forcing = {"eta": eta}
+    system, forcing = study.vehicle, {"eta": study.eta}
     opens = min((row.critical for row in study.rows if row.critical), default=0.0)
     top = min(max(OVER_OWN * abs(study.gamma), OVER_LOWEST * opens), LARGEST)
     low, high = _range(study, top)
