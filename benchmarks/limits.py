@@ -1,6 +1,7 @@
 """How fast this machine could do it at best: operations and bytes a point, counted and measured."""
 
-from collections.abc import Callable
+from collections import deque
+from collections.abc import Callable, Sequence
 from functools import partial
 from math import ceil
 from typing import Any
@@ -11,6 +12,7 @@ from benchmarks.measure import timed
 from benchmarks.ours import drawn
 from benchmarks.systems import Float, Points
 from compare.charts import chebyshev
+from compare.charts.grid import BLOCK
 from compare.stability.roots import growth
 from floquet.batch.numpy_kernel import ORDER, TOLERANCE
 from floquet.integrate.step_length import longest_step
@@ -59,11 +61,10 @@ def chart_parts(count: int, tolerance: float) -> dict[str, Any]:
         # each piece at its share of the points, so that their sum is the chart
         shape = (max(2, sides[0] // len(found.surface.pieces)), sides[1])
         local = tuple(np.linspace(-1.0, 1.0, k) for k in shape)
-        series_seconds += timed(partial(chebyshev.on_grid, piece.series, local))
+        series_seconds += timed(partial(_evaluate, piece.series, local))
         n, x, y = piece.series.shape
         flops += 2.0 * n * x * y * shape[0] + 2.0 * n * y * shape[0] * shape[1]
-        P = chebyshev.on_grid(piece.series, local)
-        stacked.append(np.concatenate([np.ones((1, *shape)), P]).reshape(n + 1, -1))
+        stacked += [P for _, P in chebyshev.on_blocks(piece.series, local, BLOCK)]
     P = np.concatenate(stacked, axis=1)
     roots = timed(lambda: growth(P)) / P.shape[1]
     return {
@@ -78,6 +79,10 @@ def chart_parts(count: int, tolerance: float) -> dict[str, Any]:
         "pieces": len(found.surface.pieces),
         **elementwise(growth, P[:, : 1 << 13]),
     }
+
+
+def _evaluate(series: Float, local: Sequence[Float]) -> None:
+    deque(chebyshev.on_blocks(series, local, BLOCK), maxlen=0)
 
 
 def elementwise(function: Callable[[Any], Any], P: Float) -> dict[str, float]:

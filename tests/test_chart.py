@@ -2,6 +2,7 @@
 
 import csv
 import json
+import tracemalloc
 from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
@@ -11,7 +12,7 @@ import pytest
 from commands import refusal
 
 from compare.__main__ import main
-from compare.charts import chebyshev, compute, surface
+from compare.charts import chebyshev, compute, grid, surface
 from compare.charts.compute import chart
 from compare.charts.result import Chart
 from compare.charts.surface import evaluate
@@ -36,8 +37,29 @@ def test_series_reproduces_a_polynomial_exactly() -> None:
     series = chebyshev.coefficients(f(*np.meshgrid(x, y, indexing="ij"))[None], (1, 2))
     at = np.random.default_rng(0).uniform(-1, 1, (2, 20))
     assert np.allclose(chebyshev.at_points(series, tuple(at))[0], f(*at), rtol=0, atol=1e-14)
-    grid = chebyshev.on_grid(series, (at[0], at[1]))[0]
-    assert np.allclose(grid, f(*np.meshgrid(at[0], at[1], indexing="ij")), rtol=0, atol=1e-14)
+    ((_, P),) = chebyshev.on_blocks(series, (at[0], at[1]), 1000)
+    grid = f(*np.meshgrid(at[0], at[1], indexing="ij")).ravel()
+    assert np.allclose(P, [np.ones(400), grid], rtol=0, atol=1e-14)
+
+
+@pytest.mark.parametrize("counts", [(257, 301), (16, 1), (1000, 33), (2, 700), (35, 18, 33)])
+def test_no_number_depends_on_the_blocks(counts: tuple[int, ...]) -> None:
+    """Their ends fall where they may: BLAS rounds the last lines of a product otherwise."""
+    degrees = (29, 13, 11)[: len(counts)]
+    series = np.random.default_rng(4).normal(size=(3, *degrees))
+    points = [np.linspace(-1.0, 1.0, k) for k in counts]
+
+    def whole(most: int) -> Any:
+        result = np.full((4, *counts), np.nan)
+        for where, P in chebyshev.on_blocks(series, points, most):
+            result[(slice(None), *where)] = P.reshape(result[(slice(None), *where)].shape)
+        return result
+
+    first = whole(10**9)
+    mesh = [m.ravel() for m in np.meshgrid(*points, indexing="ij")]
+    assert np.allclose(first[1:].reshape(3, -1), chebyshev.at_points(series, mesh), atol=1e-12)
+    for most in (1, 700, 2000, 8192, 40_000):
+        assert np.array_equal(first, whole(most))
 
 
 def test_every_second_point_of_a_finer_set_is_there() -> None:
@@ -75,6 +97,33 @@ def test_T_on_the_grid_is_T_of_the_equation(wide: Chart) -> None:
         # P's bound of 1e-11 moves T by that over T; 1e-8 leaves a factor 1 for T = 1e-3
         assert wide.T[j, i] == pytest.approx(c.T, abs=1e-8)
     assert wide.T.shape == (200, 300)
+
+
+def test_a_chart_of_other_blocks_is_the_same(wide: Chart, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(grid, "BLOCK", 3000)
+    other = chart(BEAM, WIDE, route="floquet")
+    assert np.array_equal(other.T, wide.T)
+    assert np.array_equal(other.verdict(), wide.verdict())
+
+
+def test_memory_of_a_chart_is_that_of_its_result() -> None:
+    """Never P of all points at once: it would take 32 bytes a point, and its temporaries more."""
+    tracemalloc.start()
+    try:
+        before = tracemalloc.get_traced_memory()[0]
+        found = chart(BEAM, [("Omega", 0.35, 6.0, 2000), ("gamma", 0.0, 0.5, 1500)], route="hill")
+        at_T = tracemalloc.get_traced_memory()[1] - before
+        tracemalloc.reset_peak()
+        unstable = found.unstable()
+        at_verdict = tracemalloc.get_traced_memory()[1] - before
+    finally:
+        tracemalloc.stop()
+    size = found.T.size
+    # beyond the result some 10 MB for nodes and blocks, 35 MB for discs about roots, however large
+    assert at_T <= (8 + 8) * size
+    # T, the verdicts' bytes, what was asked for
+    assert at_verdict <= (8 + 1 + 1 + 16) * size
+    assert unstable.any()
 
 
 def test_damping_and_third_axis() -> None:

@@ -13,6 +13,7 @@ from compare.__main__ import main
 from compare.edges.instabilities import Instability
 from compare.stability import multipliers
 from compare.stability.pairs import folded, has_pairs
+from compare.stability.points import VERDICTS
 from compare.stability.reading import IN_MU, IN_PAIRS, IN_Z
 from floquet import batch as by_floquet
 from floquet import monodromy
@@ -290,7 +291,8 @@ def test_bounds_hold_whatever_the_error_does() -> None:
         T = 1.7 / np.pi * growth
         assert abs(found.T[0] - T) <= found.T_error[0]
         assert multipliers.argument(P.T, Omega, eta)[0] == pytest.approx(found.T[0], abs=1e-12)
-        (verdict,) = multipliers.verdicts(P, given, found.T, Omega, eta)
+        (code,) = multipliers.verdicts(P, given, found.T, Omega, eta)
+        verdict = VERDICTS[code]
         assert verdict == found.verdict[0]
         assert verdict in {"undecided", "unstable" if growth > 0.0 else "stable"}
         shown += verdict != "undecided"

@@ -173,15 +173,18 @@ def argument(fitted: surface.Surface, alone: Sequence[Cells], wanted: Scenario) 
 
     Nan where there is neither a series nor an evaluation.
     """
-    T = np.full([axis.count for axis in wanted.axes], np.nan)
+    T = np.full([axis.count for axis in reversed(wanted.axes)], np.nan)
     Omega, eta = on_mesh(wanted)
     for cells in chain(from_series(fitted, wanted.axes), alone):
-        there = np.all(np.isfinite(cells.P), axis=0)
-        own = np.full(len(there), np.inf)
-        at = (cells.spread(x)[there] for x in (Omega, eta))
-        own[there] = wanted.reading.argument(cells.P[:, there], *at)
-        T[np.ix_(*cells.chosen)] = own.reshape(cells.shape)
-    return np.ascontiguousarray(T.T)
+        P, at = cells.P, [cells.spread(x) for x in (Omega, eta)]
+        there = np.all(np.isfinite(P), axis=0)
+        if np.all(there):
+            own = wanted.reading.argument(P, *at)
+        else:
+            own = np.full(len(there), np.inf)
+            own[there] = wanted.reading.argument(P[:, there], *(x[there] for x in at))
+        T.T[cells.where] = own.reshape(cells.shape)
+    return T
 
 
 def _check(fitted: surface.Surface, wanted: Scenario, route: str) -> tuple[float | None, int]:

@@ -1,4 +1,4 @@
-"""P on a chart's grid, a rectangle at a time: from its series, or evaluated where it has none."""
+"""P on a chart's grid, a block at a time: from its series, or evaluated where it has none."""
 
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -15,6 +15,9 @@ from compare.charts.surface import Piece, Surface
 
 Float = NDArray[np.floating[Any]]
 Values = Mapping[str, Any]
+
+BLOCK = 1 << 15
+"""Points at a time: P of a block stays in the cache, and P of all is never there at once."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,18 +48,21 @@ class Cells:
         return tuple(map(len, self.chosen))
 
     @property
+    def where(self) -> tuple[slice, ...]:
+        """The same as `chosen`: the points of an axis in a rectangle are neighbours."""
+        return tuple(slice(int(c[0]), int(c[-1]) + 1) for c in self.chosen)
+
+    @property
     def there(self) -> NDArray[np.bool_]:
         """Where P is finite and known."""
         return np.asarray(np.all(np.isfinite(self.P), axis=0) & np.isfinite(self.error))
 
     def spread(self, grid: Float) -> Float:
         """A number on the grid as one a point of these cells."""
-        return np.broadcast_to(grid[self._index(grid)], self.shape).ravel()
-
-    def _index(self, grid: Float) -> Any:
         # an axis along which the number is the same has one entry
-        sizes = zip(self.chosen, grid.shape, strict=True)
-        return np.ix_(*(c if n > 1 else np.zeros(1, int) for c, n in sizes))
+        sizes = zip(self.where, grid.shape, strict=True)
+        own = grid[tuple(where if n > 1 else slice(None) for where, n in sizes)]
+        return np.broadcast_to(own, self.shape).ravel()
 
 
 def _chosen(piece: Piece, axes: Sequence[Axis]) -> list[NDArray[np.int_]]:
@@ -66,17 +72,17 @@ def _chosen(piece: Piece, axes: Sequence[Axis]) -> list[NDArray[np.int_]]:
 
 
 def from_series(fitted: Surface, axes: Sequence[Axis]) -> Iterator[Cells]:
-    """What the series give."""
+    """What the series give, about `BLOCK` points at a time."""
     for piece in fitted.pieces:
         chosen = _chosen(piece, axes)
         if piece.series is None or any(len(index) == 0 for index in chosen):
             continue
         own = [a.to_smooth(a.points)[i] for a, i in zip(axes, chosen, strict=True)]
         ends = zip(own, piece.low, piece.high, strict=True)
-        local = (np.clip((2.0 * s - a - b) / (b - a), -1.0, 1.0) for s, a, b in ends)
-        P = chebyshev.on_grid(piece.series, tuple(local))
-        P = np.concatenate([np.ones((1, *P.shape[1:])), P]).reshape(len(P) + 1, -1)
-        yield Cells(chosen, P, np.full(P.shape[1], piece.error))
+        local = [np.clip((2.0 * s - a - b) / (b - a), -1.0, 1.0) for s, a, b in ends]
+        for part, P in chebyshev.on_blocks(piece.series, local, BLOCK):
+            there = [index[s] for index, s in zip(chosen, part, strict=True)]
+            yield Cells(there, P, np.broadcast_to(piece.error, P.shape[1]))
 
 
 def one_by_one(

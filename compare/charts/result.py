@@ -15,7 +15,14 @@ from compare.charts.axis import Axis, to_smooth
 from compare.charts.certified import Certified
 from compare.charts.grid import Cells, Omega_and_eta, from_series, on_mesh
 from compare.charts.scenario import Scenario
-from compare.stability.points import Points
+from compare.stability.points import (
+    UNDECIDED,
+    UNSTABLE,
+    VERDICTS,
+    Codes,
+    Points,
+    codes,
+)
 from hill import Singular
 
 Float = NDArray[np.floating[Any]]
@@ -146,15 +153,15 @@ class Chart:
         Undecided next to boundaries, on undamped lines where z meet (gamma = 0 at a resonance), and
         on a pole, where there is no equation.
         """
-        return self._verdict
+        return np.array(VERDICTS)[self._verdict]
 
     def unstable(self) -> NDArray[np.bool_]:
         """Where on the grid the system is shown to be unstable, like `T`."""
-        return np.asarray(self._verdict == "unstable")
+        return np.asarray(self._verdict == UNSTABLE)
 
     def undecided(self) -> NDArray[np.bool_]:
         """Where on the grid neither is shown, like `T`."""
-        return np.asarray(self._verdict == "undecided")
+        return np.asarray(self._verdict == UNDECIDED)
 
     def T_error(self) -> Float:
         """Bound on the error of `T`, like it; infinite where nothing is known.
@@ -191,45 +198,45 @@ class Chart:
         return of_chart(self)
 
     @cached_property
-    def _verdict(self) -> NDArray[np.str_]:
-        result = np.full(self.T.T.shape, "undecided")
+    def _verdict(self) -> Codes:
+        """Which of `VERDICTS`, a byte a point."""
+        result = np.full(self.T.shape, UNDECIDED, np.int8)
         for cells, Omega, eta in self._cells():
-            own = np.full(cells.P.shape[1], "undecided")
+            own = np.full(cells.P.shape[1], UNDECIDED, np.int8)
             # P beyond a float has a root beyond any edge
-            own[np.any(np.isinf(cells.P), axis=0)] = "unstable"
-            there = cells.there
-            own[there] = self.scenario.reading.verdicts(*self._known(cells, Omega, eta))
-            result[np.ix_(*cells.chosen)] = own.reshape(cells.shape)
+            own[np.any(np.isinf(cells.P), axis=0)] = UNSTABLE
+            own[cells.there] = self.scenario.reading.verdicts(*self._known(cells, Omega, eta))
+            result.T[cells.where] = own.reshape(cells.shape)
         self._ask_again(result)
-        return np.ascontiguousarray(result.T)
+        return result
 
-    def _ask_again(self, verdict: NDArray[np.str_]) -> None:
+    def _ask_again(self, verdict: Codes) -> None:
         """Decide by direct evaluation, which knows P better, what the series leaves undecided."""
-        open_points = np.argwhere((verdict == "undecided") & np.isfinite(self.T.T))
-        if not 0 < len(open_points) <= MAX_ASKED_AGAIN or not any(
+        undecided = verdict == UNDECIDED
+        undecided &= np.isfinite(self.T)
+        count = int(np.count_nonzero(undecided))
+        if not 0 < count <= MAX_ASKED_AGAIN or not any(
             piece.series is not None for piece in self.surface.pieces
         ):
             return
-        index = tuple(open_points.T)
+        index = np.nonzero(undecided.T)
         values = [axis.points[i] for axis, i in zip(self.axes, index, strict=True)]
         P, error = directly(self, np.column_stack(values))
         named = dict(zip(self.scenario.names, values, strict=True))
-        Omega, eta = (
-            np.broadcast_to(v, len(open_points)) for v in Omega_and_eta(self.scenario, named)
-        )
+        Omega, eta = (np.broadcast_to(v, count) for v in Omega_and_eta(self.scenario, named))
         known = np.flatnonzero(np.all(np.isfinite(P), axis=1) & np.isfinite(error))
         found = self.scenario.reading.solve(P[known], error[known], Omega[known], eta[known])
-        verdict[tuple(open_points[known].T)] = found.verdict
+        verdict.T[tuple(i[known] for i in index)] = codes(found.verdict)
 
     @cached_property
     def _T_error(self) -> Float:
-        result = np.full(self.T.T.shape, np.inf)
+        result = np.full(self.T.shape, np.inf)
         for cells, Omega, eta in self._cells():
             own = np.full(cells.P.shape[1], np.inf)
             known = self._known(cells, Omega, eta)
             own[cells.there] = self.scenario.reading.argument_errors(*known)
-            result[np.ix_(*cells.chosen)] = own.reshape(cells.shape)
-        return np.ascontiguousarray(result.T)
+            result.T[cells.where] = own.reshape(cells.shape)
+        return result
 
     def _cells(self) -> Iterator[tuple[Cells, Float, Float]]:
         Omega, eta = on_mesh(self.scenario)
@@ -238,10 +245,10 @@ class Chart:
 
     def _known(self, cells: Cells, Omega: Float, eta: Float) -> tuple[Float, ...]:
         """P, its error, T, Omega and eta where P is known."""
-        there = cells.there
-        T = self.T.T[np.ix_(*cells.chosen)].ravel()[there]
-        P = np.ascontiguousarray(cells.P[:, there].T)
-        return P, cells.error[there], T, Omega[there], eta[there]
+        T, there = self.T.T[cells.where].ravel(), cells.there
+        if np.all(there):
+            return cells.P.T, cells.error, T, Omega, eta
+        return cells.P[:, there].T, cells.error[there], T[there], Omega[there], eta[there]
 
 
 def _at(chart: Chart, values: Mapping[str, ArrayLike]) -> Points:

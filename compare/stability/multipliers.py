@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from compare.stability.points import Points
+from compare.stability.points import STABLE, UNDECIDED, UNSTABLE, VERDICTS, Codes, Points
 from compare.stability.roots import CHUNK, companion_roots
 from hill.stability import root_radii
 
@@ -45,23 +45,24 @@ def _argument(mu: Complex, Omega: Float | float) -> Float:
     return np.asarray(Omega / np.pi * np.log(np.maximum(np.abs(mu).max(axis=1), TINY)))
 
 
-def verdicts(P: Float, error: Float, T: Float, Omega: Float, eta: Float) -> NDArray[np.str_]:
-    """The verdict of many, (k, m + 1)."""
+def verdicts(P: Float, error: Float, T: Float, Omega: Float, eta: Float) -> Codes:
+    """The verdict of many, (k, m + 1): which of `VERDICTS`."""
     del T, Omega, eta
-    result = np.full(len(P), "undecided")
+    result = np.full(len(P), UNDECIDED, np.int8)
     for start in range(0, len(P), CHUNK):
         part = slice(start, start + CHUNK)
         result[part] = _verdicts(P[part], error[part], companion_roots(P[part]))
     return result
 
 
-def _verdicts(P: Float, error: Float, mu: Complex) -> NDArray[np.str_]:
+def _verdicts(P: Float, error: Float, mu: Complex) -> Codes:
     shown, beyond = _on_unit_circle(mu, error + _apart(P, mu))
     stable, unstable = shown & ~beyond, (shown & beyond) | _sign_shows(P, error)
     rest = np.flatnonzero(~stable & ~unstable)
     low, high = _largest(P[rest], error[rest], mu[rest])
     stable[rest], unstable[rest] = high < 1.0, low > 1.0
-    return np.where(stable, "stable", np.where(unstable, "unstable", "undecided"))
+    found = np.where(stable, STABLE, np.where(unstable, UNSTABLE, UNDECIDED))
+    return found.astype(np.int8)
 
 
 def argument_errors(P: Float, error: Float, T: Float, Omega: Float, eta: Float) -> Float:
@@ -90,7 +91,7 @@ def solve(P: Float, error: Float, Omega: Float, eta: Float) -> Points:
         R=np.abs(mu[:, 0]),
         T=T,
         T_error=_farther(T, low, high, Omega),
-        verdict=_verdicts(P, error, mu),
+        verdict=np.array(VERDICTS)[_verdicts(P, error, mu)],
     )
 
 

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from compare.stability import multipliers
 from compare.stability.indicators import edge_function, growth, indicator
 from compare.stability.pairs import folded, has_pairs
-from compare.stability.points import Points, argument_errors, solve, verdicts
+from compare.stability.points import Codes, Points, argument_errors, solve, verdicts
 from compare.stability.roots import growth as log_R
 from floquet import batch as by_floquet
 from hill import HillEquation, PeriodicEquation
@@ -49,7 +49,8 @@ class Reading:
     growth : callable
         Coefficients (k, degree + 1), Omega and eta to T; from the roots, for a few.
     verdicts : callable
-        Coefficients (k, degree + 1), errors, T, Omega and eta (k,) to verdicts.
+        Coefficients (k, degree + 1), errors, T, Omega and eta (k,) to which of
+        `compare.stability.points.VERDICTS`.
     argument_errors : callable
         The same to bounds on the errors of T.
     solve : callable
@@ -67,7 +68,7 @@ class Reading:
     polynomials: Mapping[str, Callable[[Sequence[Any]], Any]]
     argument: Callable[[Float, Float, Float], Float]
     growth: Callable[[Float, Float, float], Float]
-    verdicts: Callable[[Float, Float, Float, Float, Float], NDArray[np.str_]]
+    verdicts: Callable[[Float, Float, Float, Float, Float], Codes]
     argument_errors: Callable[[Float, Float, Float, Float, Float], Float]
     solve: Callable[[Float, Float, Float, Float], Points]
     indicator: Callable[[str, Float, Float, float], Float]

@@ -28,11 +28,23 @@ def growth(polynomials: Float) -> Float:
     (k,) float ndarray
         ln R >= 0; T is (Omega/pi) ln R - eta.
     """
-    count = polynomials.shape[1]
-    result = np.empty(count)
-    for start in range(0, count, CHUNK):
-        part = slice(start, start + CHUNK)
-        result[part] = _within_floats(polynomials[:, part])
+    # most of a chart does not grow: what may is gathered first, so that chunks are full of it
+    index = np.flatnonzero(_may_grow(polynomials))
+    result = np.zeros(polynomials.shape[1])
+    for start in range(0, len(index), CHUNK):
+        chosen = index[start : start + CHUNK]
+        result[chosen] = _within_floats(polynomials[:, chosen])
+    return result
+
+
+def _may_grow(polynomials: Float) -> NDArray[np.bool_]:
+    """False where R is shown to be 1 without its roots."""
+    result = np.ones(polynomials.shape[1], bool)
+    if len(polynomials) == 4:
+        with np.errstate(over="ignore", invalid="ignore"):
+            for start in range(0, len(result), CHUNK):
+                part = slice(start, start + CHUNK)
+                np.logical_not(all_within(*polynomials[1:, part]), out=result[part])
     return result
 
 
@@ -47,19 +59,19 @@ def _within_floats(p: Float) -> Float:
 
 
 def _growth(p: Float) -> Float:
-    degree = len(p) - 1
-    if degree == 1:
-        return _real(-p[1])
-    if degree == 2:
-        return _pair(p[1], p[2])
-    if degree == 3:
-        result = np.zeros(p.shape[1])
-        grows = np.flatnonzero(~all_within(p[1], p[2], p[3]))
-        a, b, c = (p[k, grows] for k in (1, 2, 3))
-        lone = most_isolated_root(a, b, c)
-        result[grows] = np.maximum(_real(lone), _pair(a + lone, b + lone * (a + lone)))
-        return result
+    if len(p) == 2:
+        return _arccosh(_beyond(p[1]))
+    if len(p) == 3:
+        return _arccosh(_pair_beyond(p[1], p[2]))
+    if len(p) == 4:
+        return _cubic_growth(*p[1:])
     return np.asarray(log_R(companion_roots(p.T)).max(axis=1))
+
+
+def _cubic_growth(a: Float, b: Float, c: Float) -> Float:
+    lone = most_isolated_root(a, b, c)
+    a = a + lone
+    return _arccosh(np.maximum(_beyond(lone), _pair_beyond(a, b + lone * a)))
 
 
 def companion_roots(polynomials: Float) -> Complex:
@@ -137,14 +149,40 @@ def all_within(a: Float, b: Float, c: Float) -> NDArray[np.bool_]:
     Real where the discriminant is not negative; none is beyond 1, or below -1, where no derivative
     changes its sign there (Budan and Fourier, exact for real roots).
     """
-    # P, P', P''/2 at 1 and at -1
-    even, odd = 1.0 + b, a + c
-    inside = (np.abs(odd) <= even) & (np.abs(a) <= 3.0)
-    inside &= 2.0 * np.abs(a) <= 3.0 + b
-    third = a / 3.0
-    p = b - a * third
-    q = c + third * (2.0 * third * third - b)
-    return inside & (4.0 * p * p * p + 27.0 * q * q <= 0.0)
+    # P, P', P''/2 at 1 and at -1: |a + c| <= 1 + b, 2 |a| <= 3 + b, |a| <= 3, in four arrays
+    even, odd, size = 1.0 + b, a + c, np.abs(a)
+    np.abs(odd, out=odd)
+    inside = odd <= even
+    inside &= size <= 3.0
+    size *= 2.0
+    np.add(b, 3.0, out=even)
+    inside &= size <= even
+    p, q = _depressed(a, b, c, a / 3.0, even, odd)
+    # 4 p^3 + 27 q^2 <= 0
+    np.multiply(p, 4.0, out=size)
+    size *= p
+    size *= p
+    np.multiply(q, 27.0, out=p)
+    p *= q
+    size += p
+    inside &= size <= 0.0
+    return inside
+
+
+def _depressed(
+    a: Float, b: Float, c: Float, third: Float, p: Float, q: Float
+) -> tuple[Float, Float]:
+    """P and q of t^3 + p t + q, z = t - a/3, in the arrays p and q."""
+    # b - a third
+    np.multiply(a, third, out=p)
+    np.subtract(b, p, out=p)
+    # c + third (2 third^2 - b)
+    np.multiply(third, 2.0, out=q)
+    q *= third
+    q -= b
+    q *= third
+    q += c
+    return p, q
 
 
 def most_isolated_root(a: Float, b: Float, c: Float) -> Float:
@@ -154,55 +192,78 @@ def most_isolated_root(a: Float, b: Float, c: Float) -> Float:
     opposite the other two; where two are complex, it is the real one. The rest divides out well.
     """
     third = a / 3.0
-    p = b - a * third
-    q = c + third * (2.0 * third * third - b)
+    p, q = _depressed(a, b, c, third, np.empty_like(third), np.empty_like(third))
     half = 0.5 * np.abs(q)
     cube = (p / 3.0) ** 3
     square = half * half + cube
-    with np.errstate(invalid="ignore", divide="ignore"):
-        radius = np.sqrt(np.maximum(-p / 3.0, 0.0))
-        angle = np.arccos(np.clip(half / np.sqrt(np.maximum(-cube, 1e-300)), -1.0, 1.0))
-        three = 2.0 * radius * np.cos(angle / 3.0)
-        u = np.cbrt(half + np.sqrt(np.maximum(square, 0.0)))
-        one = u - p / (3.0 * np.where(u == 0.0, 1.0, u))
-    t = -np.copysign(np.where(square > 0.0, one, three), q)
-    z = t - third
+    t = np.empty_like(third)
+    one = np.flatnonzero(square > 0.0)
+    three = np.flatnonzero(~(square > 0.0))
+    t[one] = _one_real(p[one], half[one], square[one])
+    t[three] = _three_real(p[three], half[three], cube[three])
+    z = -np.copysign(t, q) - third
     for _ in range(2):  # Newton: the closed form loses digits where its terms cancel
         slope = (3.0 * z + 2.0 * a) * z + b
         value = ((z + a) * z + b) * z + c
-        z = z - np.divide(value, slope, out=np.zeros_like(z), where=slope != 0.0)
+        z -= np.divide(value, slope, out=np.zeros_like(z), where=slope != 0.0)
     return z
 
 
-def _real(z: Float) -> Float:
-    """Ln R of a real z: arccosh |z| outside [-1, 1], else 0."""
-    above = np.maximum(np.abs(z) - 1.0, 0.0)
+def _one_real(p: Float, half: Float, square: Float) -> Float:
+    """|t| of the only real root (Cardano)."""
+    u = np.cbrt(half + np.sqrt(square))
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return np.asarray(u - p / (3.0 * np.where(u == 0.0, 1.0, u)))
+
+
+def _three_real(p: Float, half: Float, cube: Float) -> Float:
+    """|t| of the largest of three real roots (Viete)."""
+    with np.errstate(invalid="ignore", divide="ignore"):
+        radius = np.sqrt(np.maximum(-p / 3.0, 0.0))
+        angle = np.arccos(np.clip(half / np.sqrt(np.maximum(-cube, 1e-300)), -1.0, 1.0))
+    return np.asarray(2.0 * radius * np.cos(angle / 3.0))
+
+
+def _arccosh(above: Float) -> Float:
+    """Arccosh(1 + above), above >= 0: ln R of a half-axis 1 + above."""
     return np.log1p(above + np.sqrt(above * (above + 2.0)))
 
 
-def _pair(b: Float, c: Float) -> Float:
-    """Largest ln R of the two roots of z^2 + b z + c, real or conjugate."""
+def _beyond(z: Float) -> Float:
+    """By how much |z| of a real z exceeds 1."""
+    return np.maximum(np.abs(z) - 1.0, 0.0)
+
+
+def _pair_beyond(b: Float, c: Float) -> Float:
+    """The larger half-axis of the two roots of z^2 + b z + c, real or conjugate, less 1."""
     x = -0.5 * b
     square = x * x - c
     root = np.sqrt(np.abs(square))
-    real = _real(np.abs(x) + root)
-    return np.where(square >= 0.0, real, _conjugate(x, root))
+    result = _beyond(np.abs(x) + root)
+    pair = np.flatnonzero(~(square >= 0.0))
+    result[pair] = _conjugate_beyond(x[pair], root[pair])
+    return result
 
 
 def _conjugate(x: Float, y: Float) -> Float:
-    """Ln R of x +- i y: ln R is arccosh of the major half-axis of the ellipse through z.
+    """Ln R of x +- i y."""
+    size = np.hypot(x, y)
+    large = size > LARGE
+    if not np.any(large):
+        return _arccosh(_conjugate_beyond(x, y))
+    # ln 2|z| to the last bit, where a square would leave the floats
+    x, y = np.where(large, 1.0, x), np.where(large, 0.0, y)
+    beyond = np.log(2.0) + np.log(np.where(large, size, 1.0))
+    return np.where(large, beyond, _arccosh(_conjugate_beyond(x, y)))
+
+
+def _conjugate_beyond(x: Float, y: Float) -> Float:
+    """The major half-axis of the ellipse with foci +-1 through x + i y, less 1.
 
     (|z + 1| + |z - 1|)/2 - 1, written without cancellation.
     """
-    size = np.hypot(x, y)
-    if np.any(size > LARGE):  # ln 2|z| to the last bit, where a square would leave the floats
-        large = size > LARGE
-        x, y = np.where(large, 1.0, x), np.where(large, 0.0, y)
-        beyond = np.log(2.0) + np.log(np.where(large, size, 1.0))
-        return np.where(large, beyond, _conjugate(x, y))
     plus, minus = np.abs(x + 1.0), np.abs(1.0 - x)
     far, near = np.hypot(plus, y), np.hypot(minus, y)
     with np.errstate(invalid="ignore", divide="ignore"):
         lift = np.where(y == 0.0, 0.0, y * y * (1.0 / (far + plus) + 1.0 / (near + minus)))
-    above = 0.5 * (lift + (plus + minus - 2.0))
-    return np.log1p(above + np.sqrt(above * (above + 2.0)))
+    return np.asarray(0.5 * (lift + (plus + minus - 2.0)))
