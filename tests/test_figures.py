@@ -18,6 +18,7 @@ from compare.report.figures.catalogue import FIGURES, ORDER
 from compare.report.figures.compute import KINDS, compute, named, tasks
 from compare.report.figures.critical import BOTTOM, TOP
 from compare.report.figures.data import FigureData, Series, as_csv, from_csv
+from compare.report.figures.regions import section_parameters
 from compare.report.figures.sampling import adaptive
 from compare.report.one_route import T_of, equation, solve
 from compare.report.steady import loss
@@ -347,6 +348,30 @@ def test_the_same_bytes_every_time() -> None:
     first, second = (drawing.draw(shown, ("png", "svg")) for _ in range(2))
     assert first == second
     assert first["png"].startswith(b"\x89PNG")
+
+
+def test_captions_may_be_left_out(tmp_path: Path) -> None:
+    words = ["figures", "27", "--format", "png", "--workers", "1", "--output"]
+    assert main([*words, str(tmp_path / "with")]) == 0
+    assert main([*words, str(tmp_path / "without"), "--no-captions"]) == 0
+    image = pytest.importorskip("matplotlib.image")
+    tall, short = (
+        image.imread(tmp_path / name / "figure27.png").shape for name in ("with", "without")
+    )
+    assert tall[1] == short[1]
+    assert tall[0] > short[0] + 50
+
+
+@pytest.mark.parametrize("figure", [24, 29])
+def test_sections_are_closer_where_the_rotation_slows_down(figure: int) -> None:
+    """Below buckling its frequency goes like the root of the distance: chords were seen there."""
+    high = FIGURES[figure].span[1]
+    for resonance in (resonance_named("omega_(1) + omega_(B)"), resonance_named("2 omega_(B)")):
+        T0 = np.array(section_parameters(FIGURES[figure], resonance, 1.0))
+        assert np.all(np.diff(T0) > 0.0)
+        assert T0[-1] == high
+        middle = np.diff(T0[(0.2 * high < T0) & (0.6 * high > T0)])
+        assert np.diff(T0[0.65 * high < T0]).max() == pytest.approx(middle.min() / 3.0)
 
 
 def test_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

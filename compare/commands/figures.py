@@ -45,6 +45,9 @@ def configure(p: argparse.ArgumentParser) -> None:
         "--format", choices=FORMATS, action="append", help="repeatable (default all three)"
     )
     p.add_argument(
+        "--no-captions", action="store_true", help="pictures without the captions below them"
+    )
+    p.add_argument(
         "--workers",
         type=int,
         default=ALL_CORES,
@@ -62,7 +65,7 @@ def run(options: argparse.Namespace) -> int:
     if set(formats) - {"csv"}:
         require()
     _prepare(options.output)
-    job = partial(drawn, formats=formats)
+    job = partial(drawn, formats=formats, captioned=not options.no_captions)
     lines: list[tuple[int, str]] = []
     with progress("figures", len(numbers)) as advance, mapper(options.workers) as each:
         for group in each(job, tasks(numbers)):
@@ -90,7 +93,7 @@ def _prepare(folder: Path) -> None:
 
 
 def drawn(
-    group: tuple[int, ...], formats: tuple[str, ...]
+    group: tuple[int, ...], formats: tuple[str, ...], captioned: bool = True
 ) -> list[tuple[int, dict[str, bytes], str]]:
     """Figures of one group, computed and drawn: files by format, and a line about each."""
     found = []
@@ -99,7 +102,7 @@ def drawn(
         content: dict[str, bytes] = {}
         pictures = tuple(kind for kind in formats if kind != "csv")
         if pictures:
-            content |= draw(data, pictures)
+            content |= draw(data, pictures, captioned=captioned)
         if "csv" in formats:
             content["csv"] = as_csv(data).encode()
         kinds = ", ".join(sorted(content))

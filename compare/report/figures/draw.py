@@ -38,13 +38,15 @@ def require() -> None:
         raise ValueError(MISSING) from None
 
 
-def draw(data: FigureData, formats: tuple[str, ...]) -> dict[str, bytes]:
+def draw(data: FigureData, formats: tuple[str, ...], *, captioned: bool = True) -> dict[str, bytes]:
     """The figure in each format; the same bytes every time.
 
     Parameters
     ----------
     data : FigureData
     formats : tuple of {"png", "svg"}
+    captioned : bool, optional
+        With the caption in the picture, below the axes.
     """
     require()
     import matplotlib
@@ -56,21 +58,22 @@ def draw(data: FigureData, formats: tuple[str, ...]) -> dict[str, bytes]:
     rc: Any = style.RC
     with matplotlib.rc_context(rc):
         text = style.wrapped(style.caption(figure, data), _width(), 1.0 - 2.0 * INDENT)
-        below = LINE * (text.count("\n") + 1) + 0.12
+        below = LINE * (text.count("\n") + 1) + 0.12 if captioned else 0.0
         page = Figure(figsize=(style.WIDTH, height + below))
         FigureCanvasAgg(page)
         share = below / (height + below)
         page.set_layout_engine(
             "constrained", rect=(0.0, share, 1.0, 1.0 - share), w_pad=0.04, h_pad=0.04
         )
-        page.text(
-            INDENT,
-            share - 0.06 / (height + below),
-            text,
-            fontsize=CAPTION,
-            va="top",
-            linespacing=1.25,
-        )
+        if captioned:
+            page.text(
+                INDENT,
+                share - 0.06 / (height + below),
+                text,
+                fontsize=CAPTION,
+                va="top",
+                linespacing=1.25,
+            )
         drawer(page, figure, data)
         page.draw_without_rendering()  # lay out once, not for every format
         page.set_layout_engine("none")

@@ -20,6 +20,8 @@ NEGLIGIBLE_WIDTH = 1e-6
 # brackets a sign change: a wide bracket may hold the edge of a narrow tongue of higher order.
 BRACKETS = (1e-4, 1e-3, 1e-2)
 MARKS = 3
+# Share of the thrusts from which sections are three times as close.
+BENDS = 0.6
 # As near as a float is to the zero: marks are held against the curves.
 FINEST = 4.0 * float(np.finfo(float).eps)
 
@@ -80,7 +82,10 @@ def section_parameters(
     detail: float,
     near: tuple[float, ...] = (0.03, 0.12, 0.3, 0.6),
 ) -> list[float]:
-    """Values of T0 or gamma, closer where the tongue turns; `near` zero, in steps of them."""
+    """Values of T0 or gamma, closer where the tongue turns, below buckling and `near` zero.
+
+    What is near zero is in steps of the others.
+    """
     lo, hi = figure.span
     bent = resonance in (RESONANCES[0], THIRD)
     count = point_count(49 if bent else 25, detail, 9)
@@ -88,7 +93,10 @@ def section_parameters(
     # the frequency of rotation starts like the square root of T0
     rotates = resonance.j == 0 and figure.along == "T0"
     near_zero = even[0] * np.array(near) if rotates else []
-    return [float(v) for v in (*near_zero, *even)]
+    # and ends like that of the distance from buckling, a little beyond the axis
+    bends = even[:-1][even[:-1] >= BENDS * hi] if rotates else np.empty(0)
+    between = np.ravel(bends[:, None] + (even[1] - even[0]) * np.array([1.0, 2.0]) / 3.0)
+    return [float(v) for v in np.sort([*near_zero, *even, *between])]
 
 
 def expects_width(figure: Figure, resonance: Resonance) -> bool:
