@@ -12,7 +12,7 @@ import hill
 from floquet import enclose, enclose_region
 from floquet.enclosure import cells, local, region, surface
 from floquet.enclosure.balls import number
-from floquet.enclosure.bound import bound
+from floquet.enclosure.bound import bound_on
 from floquet.enclosure.result import RegionProof
 from hill import UniformBeam
 from hill.decimals import exact_beam
@@ -106,7 +106,7 @@ def made(eta: str = "0") -> surface.Surface:
                              GAMMA[-1] / 2)  # fmt: skip
     with ctx.workprec(surface.BITS):
         make = partial(region.of_decimals, given, Fraction(eta))
-        known = bound(*make(surface.BITS))
+        known = bound_on(*make(surface.BITS))
         nodes, left = surface.counts(known, over)
         values = [surface.column(make, over, nodes, i) for i in range(nodes[0])]
         return surface.Surface(over, known, nodes, left, values)
@@ -175,7 +175,7 @@ def test_the_bound_holds_for_complex_parameters() -> None:
     given, _ = exact_beam(BEAM, 1, 0)
     with ctx.workprec(128):
         F, G = region.of_decimals(given, Fraction(0), 128)
-        known = bound(F, G)
+        known = bound_on(F, G)
         F, G = (np.array([[float(x) for x in r] for r in M.tolist()]) for M in (F, G))
     rng = np.random.default_rng(4)
     tightest = 0.0

@@ -63,7 +63,7 @@ class Certified:
         return int(np.sum(shown & (verdict != self.cells)))
 
 
-def certified(
+def certify(
     of: Scenario, run: MapLike, progress: Callable[[str, int, int], Any] | None
 ) -> Certified:
     """Prove what can be proven of a chart's cells.

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from compare.charts import surface
 from compare.charts.axis import MAX_POINTS, Axis, from_smooth
-from compare.charts.certified import certified
+from compare.charts.certified import certify as certified_cells
 from compare.charts.grid import Cells, from_series, on_mesh, one_by_one, reasons
 from compare.charts.nodes import ROUTES, Nodes, solved
 from compare.charts.result import Chart
@@ -104,7 +104,7 @@ def chart(
 
     low, high = np.array([axis.span for axis in wanted.axes]).T
     with mapper(workers) as run:
-        proven = certified(wanted, run, stage) if certify else None
+        proven = certified_cells(wanted, run, stage) if certify else None
         store = Path(resume) if resume else None
         sampler = Nodes(wanted, route, run, store, progress, stage)
         fitted = surface.fit(

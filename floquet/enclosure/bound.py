@@ -59,7 +59,7 @@ class Bound:
         return SAFE * (grown + log(comb(self.n, self.n // 2)))
 
 
-def bound(F: Any, G: Any) -> Bound:
+def bound_on(F: Any, G: Any) -> Bound:
     """Of matrices in balls.
 
     Raises

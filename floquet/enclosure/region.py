@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from floquet.enclosure import beams
 from floquet.enclosure.balls import exact, identity, number
-from floquet.enclosure.bound import bound
+from floquet.enclosure.bound import bound_on
 from floquet.enclosure.cells import Place, decided
 from floquet.enclosure.discs import STABLE, UNDECIDED, UNSTABLE
 from floquet.enclosure.result import RegionProof
@@ -51,7 +51,7 @@ def prove(
     rectangle = Rectangle(*_middle(s[0], s[-1]), *_middle(levels[0], levels[-1]))
     told = progress or (lambda what, done, total: None)
     with ctx.workprec(BITS):
-        known = bound(*matrices(BITS))
+        known = bound_on(*matrices(BITS))
         nodes, remainder = counts(known, rectangle)
         if nodes[0] * nodes[1] > MAX_NODES:
             raise ValueError(
