@@ -1,7 +1,7 @@
 """Characteristic polynomials of small matrices, and how errors of those move them."""
 
 from math import comb, frexp
-from typing import Any
+from operator import mul
 
 import numpy as np
 
@@ -54,15 +54,16 @@ def characteristic_polynomial(A: Float, scale: Float) -> tuple[Float, Float, Flo
     p, sensitivity, rounding = np.ones(n + 1), np.zeros(n + 1), np.zeros(n + 1)
     if n <= MAX_EXACT:
         whole, bits = _whole_numbers(A)
-        one = np.array([[int(i == j) for j in range(n)] for i in range(n)], dtype=object)
-        B, c = one, 1
+        rows, c = [[int(i == j) for j in range(n)] for i in range(n)], 1
         for k in range(1, n + 1):
             unit = 1 << bits * (k - 1)
-            moved = np.array([[abs(b) / unit for b in row] for row in B], float)
+            moved = np.array([[abs(b) / unit for b in row] for row in rows], float)
             sensitivity[k] = np.sum(moved.T * scale)
-            B = whole @ B
-            c = -sum(B[i, i] for i in range(n)) // k
-            B = B + c * one
+            columns = list(zip(*rows, strict=True))
+            rows = [[sum(map(mul, row, column)) for column in columns] for row in whole]
+            c = -sum(rows[i][i] for i in range(n)) // k
+            for i in range(n):
+                rows[i][i] += c
             p[k] = c / (1 << bits * k)
         rounding[1:] = 0.5 * EPS * np.abs(p[1:])
         return p, sensitivity, rounding
@@ -100,14 +101,14 @@ def beyond_first_order(A: Float, off: float) -> Float:
     return moved
 
 
-def _whole_numbers(A: Float) -> tuple[Any, int]:
+def _whole_numbers(A: Float) -> tuple[list[list[int]], int]:
     """The floats as whole numbers over 2**bits."""
-    least = min((frexp(x)[1] for x in A.ravel() if x), default=0)
+    rows = A.tolist()
+    least = min((frexp(x)[1] for row in rows for x in row if x), default=0)
     bits = max(53 - least, 0)
-    ratios = [float(x).as_integer_ratio() for x in A.ravel()]
+    ratios = [[x.as_integer_ratio() for x in row] for row in rows]
     # every denominator is a power of two, 2**bits at most
-    whole = [top * ((1 << bits) // bottom) for top, bottom in ratios]
-    return np.array(whole, dtype=object).reshape(A.shape), bits
+    return [[top * ((1 << bits) // bottom) for top, bottom in row] for row in ratios], bits
 
 
 def characteristic_polynomials(A: Float, scale: Float) -> tuple[Float, Float]:

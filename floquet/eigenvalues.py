@@ -99,20 +99,31 @@ def discs_from_polynomial(values: Complex, p: Float, errors: Float) -> Discs:
     size = 1.0 + np.abs(values)
     with np.errstate(over="ignore", invalid="ignore"):
         # values are the roots of a polynomial that is not quite p
-        again, moduli = np.poly(values), np.poly(-np.abs(values))
+        again, moduli = _from_roots(values), _from_roots(-np.abs(values))
         unsure = errors + np.abs(p - again) + 4.0 * n * EPS * np.abs(moduli)
         unsure[0] = 0.0
         radii = RADII * size[:, None]
         apart = np.abs(values[:, None] - values)
         gap = np.abs(apart[:, None, :] - radii[:, :, None])
         gap -= 4.0 * EPS * (size[:, None] + size)[:, None, :]
-        moved = np.polyval(unsure, np.abs(values)[:, None] + radii)
+        farthest, moved = np.abs(values)[:, None] + radii, np.zeros_like(radii)
+        for coefficient in unsure:
+            moved = moved * farthest + coefficient
         clear = np.prod(np.maximum(gap, 0.0), axis=2) > 1.01 * moved
     # Cauchy: every root is within 1 + max |p_k|
     everything = 1.0 + float(np.max(np.abs(p[1:]) + errors[1:])) + size
     radius = np.where(clear.any(axis=1), radii[np.arange(n), clear.argmax(axis=1)], everything)
     # a circle that holds no other computed root holds no other true one
     return Discs(values, radius, (apart <= radius[:, None]) | np.eye(n, dtype=bool))
+
+
+def _from_roots(values: Complex | Float) -> Float:
+    """Coefficients of prod (x - z_j), real as the roots of a real matrix come in pairs."""
+    p = np.zeros(len(values) + 1, complex)
+    p[0] = 1.0
+    for j, value in enumerate(values, start=1):
+        p[1 : j + 1] -= value * p[:j]
+    return p.real
 
 
 def connected(together: Bool) -> Bool:

@@ -130,10 +130,11 @@ def _of_equation(equation: HillEquation | PeriodicEquation, method: str) -> Mono
     many = n > MAX_FEW and method == "taylor"
     runs = _of_many(equation) if many else _of_few(equation, how)
     Phi_u, whole = runs.Phi_u, runs.whole
+    whole_u = _undamp(whole, eta, period)
     A = Phi_u[:n, :n]
     found = bounded(
         A,
-        _undamp(whole, eta, period)[:n, :n],
+        whole_u[:n, :n],
         runs.rounding[:n, :n],
         runs.ulps,
         0.0,
@@ -163,7 +164,7 @@ def _of_equation(equation: HillEquation | PeriodicEquation, method: str) -> Mono
         T_error=growth.T_error,
         verdict=growth.verdict,
         liouville_defect=_liouville(whole, n * eta * period),
-        reversibility_defect=_reversibility(_undamp(whole, eta, period)),
+        reversibility_defect=_reversibility(whole_u),
         method=method,
         half_period=runs.half,
         remark=remark(
@@ -264,6 +265,8 @@ def _discs(values: Complex, A: Float, found: Bounded) -> list[Discs]:
 def _damp(Phi_u: Float, eta: float, period: float) -> Float:
     """Monodromy of (q, q') from that of (u, u'): q = exp(-eta tau/2) u."""
     n = len(Phi_u) // 2
+    if eta == 0.0:
+        return Phi_u
     to_q = np.eye(2 * n)
     to_q[n:, :n] -= 0.5 * eta * np.eye(n)
     from_q = 2.0 * np.eye(2 * n) - to_q

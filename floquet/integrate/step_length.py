@@ -24,8 +24,15 @@ RADII_ORDER = 25.0
 MAX_EXPONENT = 600.0
 
 
+# Of the circles every so many are tried, then all about the best: log(h/R) is concave in log R
+# (Kingman: the Perron root of elements that are log-convex is so too), so no other is better.
+STRIDE = 7
+
+
 def perron_root(matrices: Float) -> Float:
     """Largest eigenvalue of matrices without negative elements, in whatever units."""
+    if not np.any(matrices):
+        return np.zeros(matrices.shape[:-2])
     return np.asarray(np.max(np.abs(np.linalg.eigvals(matrices)), axis=-1))
 
 
@@ -60,11 +67,19 @@ def longest_step(
     rate = fastest_rate(terms, damping)
     if rate == 0.0:
         return float("inf")
-    R = RADII * (order + 1) / RADII_ORDER / rate
-    growth = R * (np.sqrt(perron_root(_swollen(terms, R))) + _drag(_as_terms(damping), R))
-    # 1 - h/R exceeds 1/2 wherever the bound is of any use
-    share = np.exp((np.log(0.5 * tolerance) - np.minimum(growth, MAX_EXPONENT)) / (order + 1))
-    return float(np.max(R * np.minimum(share, 0.5)))
+    circles, drag = RADII * (order + 1) / RADII_ORDER / rate, _as_terms(damping)
+    constant = all(frequency == 0.0 for _, frequency in drag)
+    always = perron_root(_together(drag)) if constant else None
+
+    def steps(R: Float) -> Float:
+        dragged = perron_root(_swollen(drag, R)) if always is None else always
+        growth = R * (np.sqrt(perron_root(_swollen(terms, R))) + dragged)
+        # 1 - h/R exceeds 1/2 wherever the bound is of any use
+        share = np.exp((np.log(0.5 * tolerance) - np.minimum(growth, MAX_EXPONENT)) / (order + 1))
+        return np.asarray(R * np.minimum(share, 0.5))
+
+    near = STRIDE // 2 + STRIDE * int(np.argmax(steps(circles[STRIDE // 2 :: STRIDE])))
+    return float(np.max(steps(circles[max(near - STRIDE + 1, 0) : near + STRIDE])))
 
 
 def _as_terms(damping: Float | Sequence[Term]) -> Sequence[Term]:
@@ -73,11 +88,6 @@ def _as_terms(damping: Float | Sequence[Term]) -> Sequence[Term]:
 
 def _together(terms: Sequence[Term]) -> Float:
     return sum((np.abs(matrix) for matrix, _ in terms), np.zeros_like(terms[0][0]))
-
-
-def _drag(damping: Sequence[Term], R: Float) -> Float:
-    constant = all(frequency == 0.0 for _, frequency in damping)
-    return perron_root(_together(damping) if constant else _swollen(damping, R))
 
 
 def _swollen(terms: Sequence[Term], R: Float) -> Float:

@@ -34,20 +34,19 @@ class Taylor(TaylorSteps):
 
     def march(self, p: Parameters, size: Shape, time: float, steps: int, folds: int = 1) -> Float:
         """The same with a given number of steps, `folds` times as many as one fold has."""
-        h = time / (folds * steps)
+        h, damped = time / (folds * steps), bool(np.any(p.C))
         if not _is_expanded(size, self.order):
-            return self._one_by_one(p, size, h, folds * steps)
-        fold = folded(size, self.order, steps)
-        wide = [np.tile(value, (1, steps)) for value in p]
-        X = np.eye(2 * size.n)
+            return self._one_by_one(p, size, h, folds * steps, damped)
+        fold = _march(size, self.order, steps, damped)
+        numbers = np.concatenate([[h], *(np.ravel(value, order="F") for value in p)])
+        X: Any = np.eye(2 * size.n)
         for k in range(folds):
-            start = h * np.arange(k * steps, (k + 1) * steps)[None, :]
-            X = fold(X, start, np.full((1, steps), h), *wide)
+            X = fold(X, k * steps, numbers)
         return np.asarray(X)
 
-    def _one_by_one(self, p: Parameters, size: Shape, h: float, steps: int) -> Float:
+    def _one_by_one(self, p: Parameters, size: Shape, h: float, steps: int, damped: bool) -> Float:
         """The same to the last bit: a fold of large steps takes far longer to build than to run."""
-        step, numbers = _step(size, self.order), [ca.DM(value) for value in p]
+        step, numbers = _step(size, self.order, damped), [ca.DM(value) for value in p]
         X = ca.DM(np.eye(2 * size.n))
         for k in range(steps):
             X = step(X, h * k, h, *numbers)
@@ -73,8 +72,25 @@ def folded(size: Shape, order: int, steps: int) -> Any:
 
 
 @lru_cache(maxsize=64)
-def _step(size: Shape, order: int) -> Any:
-    """One step of length h from (Q, V) at tau, as a CasADi function."""
+def _march(size: Shape, order: int, steps: int, damped: bool) -> Any:
+    """The same from the step `first` on; h and all parameters, one vector, are those of each."""
+    X, first = ca.MX.sym("X", 2 * size.n, 2 * size.n), ca.MX.sym("first")
+    shapes = [value.shape for value in symbols(ca.SX, size)]
+    numbers = ca.MX.sym("numbers", 1 + sum(rows * columns for rows, columns in shapes))
+    h, *parts = ca.vertsplit(numbers, np.cumsum([0, 1, *(a * b for a, b in shapes)]).tolist())
+    wide = [
+        ca.repmat(ca.reshape(x, shape), 1, steps) for x, shape in zip(parts, shapes, strict=True)
+    ]
+    start = h * (first + ca.DM(range(steps)).T)
+    fold = _step(size, order, damped).fold(steps)
+    return ca.Function(
+        "march", [X, first, numbers], [fold(X, start, ca.repmat(h, 1, steps), *wide)]
+    )
+
+
+@lru_cache(maxsize=64)
+def _step(size: Shape, order: int, damped: bool = True) -> Any:
+    """One step of length h from (Q, V) at tau, as a CasADi function; C may be left out."""
     n = size.n
     kind: Any = ca.SX if _is_expanded(size, order) else ca.MX
     p = symbols(kind, size)
@@ -83,7 +99,9 @@ def _step(size: Shape, order: int) -> Any:
     pulsating = [(p.gamma * p.G, _cosine(p.Omega, tau, h, order))]
     for s, H_s in enumerate(ca.horzsplit(p.H, n) if size.terms else [], start=1):
         pulsating.append((H_s, _cosine(s * p.omega_L, tau, h, order)))
-    Q, V = second_order(X[:n, :], X[n:, :], h, order, (p.F, pulsating), (p.C, ()))
+    Q, V = second_order(
+        X[:n, :], X[n:, :], h, order, (p.F, pulsating), (p.C, ()) if damped else None
+    )
     return ca.Function("step", [X, tau, h, *p], [ca.vertcat(Q, V)])
 
 

@@ -64,8 +64,7 @@ def coefficient_shifts(
     squares = np.repeat((alpha[:, None, None] + m) ** 2, n, axis=2)  # (c, groups, reach n)
 
     diagonal = inner - squares[..., None] * np.eye(reach * n)
-    down = _eliminated(diagonal, lower, upper)
-    up = _eliminated(diagonal[:, ::-1], upper, lower)[:, ::-1]
+    down, up = _eliminated(diagonal, lower, upper)
     inverse = np.linalg.inv(np.linalg.inv(down) + np.linalg.inv(up) - diagonal)
     # but for their sign, of which no modulus knows
     below = up[:, 1:] @ lower @ inverse[:, :-1]
@@ -94,13 +93,15 @@ def _constant(system: Blocks, reach: int) -> tuple[Float, Float, Float]:
     return inner, lower_rows, upper_rows
 
 
-def _eliminated(diagonal: Any, before: Float, after: Float) -> Any:
-    """Inverses of S_g = D_g - before S_(g-1)^-1 after, from the first on."""
-    found = np.empty_like(diagonal)
-    found[:, 0] = np.linalg.inv(diagonal[:, 0])
-    for g in range(1, diagonal.shape[1]):
-        found[:, g] = np.linalg.inv(diagonal[:, g] - before @ found[:, g - 1] @ after)
-    return found
+def _eliminated(diagonal: Any, lower: Float, upper: Float) -> tuple[Any, Any]:
+    """Inverses of S_g = D_g - L S_(g-1)^-1 U from the first on, and of S'_g from the last."""
+    both = np.stack([diagonal, diagonal[:, ::-1]])
+    before, after = (np.stack(pair)[:, None] for pair in ((lower, upper), (upper, lower)))
+    found = np.empty_like(both)
+    found[:, :, 0] = np.linalg.inv(both[:, :, 0])
+    for g in range(1, both.shape[2]):
+        found[:, :, g] = np.linalg.inv(both[:, :, g] - before @ found[:, :, g - 1] @ after)
+    return found[0], found[1][:, ::-1]
 
 
 def _moduli(blocks: Any, size: Float) -> Float:
