@@ -26,13 +26,13 @@ def of_crosscheck(x: CrossCheck) -> str:
 
 
 def of_chart(chart: Chart) -> str:
-    """What was found in a few lines; of two axes the picture, where matplotlib is there."""
+    """What was found in a few lines; of one or two axes the picture, where matplotlib is there."""
     told = paragraphs(describe(chart))
-    if len(chart.axes) != 2 or find_spec("matplotlib") is None:
+    if len(chart.axes) > 2 or find_spec("matplotlib") is None:
         return told
     image = base64.b64encode(picture(chart, (), "png")).decode()
-    x, y = (axis.name for axis in chart.axes)
-    words = escape(f"T as colour over {x} and {y}, white where it is stable", quote=True)
+    names = " and ".join(axis.name for axis in chart.axes)
+    words = escape(f"T over {names}, 0 or white where it is stable", quote=True)
     shown = f'<img alt="{words}" style="max-width: 45em" src="data:image/png;base64,{image}">'
     return f"{shown}\n{told}"
 

@@ -21,7 +21,9 @@ EVIL = "<script>alert(1)</script>"
 @cache
 def charted(axes: int = 2) -> Chart:
     wanted = [("Omega", 1.0, 1.2, 21), ("gamma", 0.05, 0.2, 11), ("eta", 0.0, 0.01, 3)]
-    return chart(BEAM, wanted[:axes], forcing={} if axes == 3 else {"eta": 0.0})
+    fixed = {"gamma": 0.1, "eta": 0.0}
+    left = [name for name, *_ in wanted[axes:]]
+    return chart(BEAM, wanted[:axes], forcing={name: fixed[name] for name in left})
 
 
 @cache
@@ -90,6 +92,11 @@ def test_a_chart_of_two_axes_shows_its_picture() -> None:
     assert base64.b64decode(data).startswith(b"\x89PNG")
     assert "Omega and gamma" in image.attributes["alt"]
     assert "21 x 11 points" in page.root.text
+
+
+def test_a_chart_of_one_axis_shows_a_curve() -> None:
+    (image,) = Parsed(charted(1)._repr_html_()).all("img")
+    assert image.attributes["alt"].startswith("T over Omega,")
 
 
 def test_without_a_picture_words_are_left(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -14,8 +14,6 @@
 # file, for `verify vehicle mine.toml`; docs/vehicles.md has every key.
 
 # %%
-from dataclasses import replace
-
 from hill import Damping, Section, Sensor, Thrust, Vehicle
 
 stages = (
@@ -77,14 +75,13 @@ print(damped.verdict)  # stable
 # %% [markdown]
 # ## Where it is unstable
 #
-# Over the frequency and the ratio of the pulsation; charts read the damping from the forcing.
+# Over the frequency and the ratio of the pulsation.
 
 # %%
 from compare import chart, instabilities
 
-undamped = replace(vehicle, damping=Damping())
 axes = [("Omega", 0.8 * Omega, 1.2 * Omega, 160), ("gamma", 0.0, 0.6, 80)]
-c = chart(undamped, axes, forcing={"eta": 0.05})
+c = chart(vehicle, axes)
 print([i.resonance.name for i in instabilities(c, orders=1)])  # ['omega_(1) + omega_(B)']
 c
 
