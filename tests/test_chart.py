@@ -14,6 +14,7 @@ from commands import refusal
 from compare.__main__ import main
 from compare.charts import chebyshev, compute, grid, surface
 from compare.charts.compute import chart
+from compare.charts.nodes import NODES_PER_JOB
 from compare.charts.result import Chart
 from compare.charts.surface import evaluate
 from compare.edges.on_chart import tongues
@@ -216,9 +217,12 @@ def test_an_interrupted_chart_resumes(tmp_path: Path) -> None:
 
 
 def test_workers_change_nothing() -> None:
-    axes = [("Omega", 0.9, 1.3, 9), ("gamma", 0.0, 0.3, 9)]
+    # several jobs, which end in any order
+    axes = [("Omega", 0.35, 3.0, 9), ("gamma", 0.0, 0.5, 9)]
     one, two = (chart(BEAM, axes, route="floquet", workers=n) for n in (1, 2))
+    assert one.nodes > 2 * NODES_PER_JOB
     assert np.array_equal(one.T, two.T)
+    assert np.array_equal(one.sampled, two.sampled)
 
 
 @pytest.mark.parametrize(

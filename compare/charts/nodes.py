@@ -192,10 +192,15 @@ class Nodes:
 
     @property
     def sampled(self) -> tuple[Float, Float]:
-        """Where P is known, the values of the axes (nodes, axes); how far the routes differ."""
-        keys = [np.frombuffer(key) for key in self.known]
-        apart = [line[-1] for line in self.known.values()]
-        return np.array(keys).reshape(len(keys), len(self.scenario.axes)), np.array(apart)
+        """Where P is known, the values of the axes (nodes, axes); how far the routes differ.
+
+        In order of the axes' values: jobs end in any order.
+        """
+        keys = np.array([np.frombuffer(key) for key in self.known])
+        keys = keys.reshape(len(self.known), len(self.scenario.axes))
+        apart = np.array([line[-1] for line in self.known.values()])
+        order = np.lexsort(keys.T[::-1])
+        return keys[order], apart[order]
 
     def __call__(self, smooth: Float) -> tuple[Float, Float]:
         """Coefficients of P and their errors at smooth coordinates (k, axes)."""
