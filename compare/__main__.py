@@ -131,6 +131,21 @@ def _run(words: list[str]) -> int:
 class _Parser(argparse.ArgumentParser):
     """One that does not keep to itself that its help could not be written."""
 
+    names_others = False
+    """Whether the help ends with the other commands, which are imported for it and not before."""
+
+    def format_help(self) -> str:
+        """What is printed for --help."""
+        if self.names_others:
+            summaries = [(c, import_module(f"compare.commands.{c}").SUMMARY) for c in COMMANDS]
+            lines = "\n".join(f"  verify {c:<12} {summary}" for c, summary in summaries)
+            self.epilog = (
+                f"{self.epilog}\n\nother commands:\n{lines}\n"
+                "  verify help COMMAND; verify --version"
+            )
+            self.names_others = False
+        return super().format_help()
+
     def print_help(self, file: Any = None) -> None:
         """Write it, or raise `OSError`."""
         file = file or sys.stdout
@@ -140,17 +155,13 @@ class _Parser(argparse.ArgumentParser):
 
 def _parser(command: Any, program: str, name: str) -> argparse.ArgumentParser:
     description = command.SUMMARY[0].upper() + command.SUMMARY[1:] + "."
-    epilog = command.EPILOG
-    if name == "rows":
-        summaries = [(c, import_module(f"compare.commands.{c}").SUMMARY) for c in COMMANDS]
-        lines = "\n".join(f"  verify {c:<12} {summary}" for c, summary in summaries)
-        epilog = f"{epilog}\n\nother commands:\n{lines}\n  verify help COMMAND; verify --version"
     parser = _Parser(
         prog=program,
         description=description,
-        epilog=epilog,
+        epilog=command.EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
+    parser.names_others = name == "rows"
     parser._negative_number_matcher = NEGATIVE
     command.configure(parser)
     return parser
@@ -160,9 +171,12 @@ def _version() -> str:
     import platform
     from importlib.metadata import version
 
+    from floquet.batch import in_use
+
     parts = [f"{name} {version(name)}" for name in ("numpy", "scipy", "casadi")]
     own = f"floquet-crosscheck {version('floquet-crosscheck')}"
-    return f"{own} (Python {platform.python_version()}, {', '.join(parts)})"
+    packages = f"{own} (Python {platform.python_version()}, {', '.join(parts)})"
+    return f"{packages}\nmany points at once: {in_use()}"
 
 
 class _Signalled(KeyboardInterrupt):

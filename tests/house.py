@@ -75,6 +75,7 @@ COMPUTED = {"equation", "frequencies", "natural_frequencies", "singular_Omega"}
 ANSWERS = {
     "floquet.batch.equations.Polynomials",
     "floquet.batch.equations.polynomials",
+    "floquet.batch.which_kernel.in_use",
     "floquet.enclosure.enclose",
     "floquet.enclosure.enclose_interval",
     "floquet.enclosure.enclose_region",

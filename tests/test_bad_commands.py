@@ -242,7 +242,9 @@ def test_a_link_is_followed_and_a_device_written_to(
 
 def test_version_and_help(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["--version"]) == 0
-    assert capsys.readouterr().out.startswith("floquet-crosscheck ")
+    said = capsys.readouterr().out
+    assert said.startswith("floquet-crosscheck ")
+    assert "\nmany points at once: " in said
     with pytest.raises(SystemExit) as end:
         main(["help", "chart"])
     assert end.value.code == 0

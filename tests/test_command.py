@@ -188,3 +188,16 @@ def test_python_m_compare_is_the_same_and_a_closed_pipe_is_no_error() -> None:
     )
     assert done.stdout.startswith('# {"schema": 1, "made_by": "floquet-crosscheck ')
     assert done.stderr == ""
+
+
+def test_the_tables_import_no_other_command() -> None:
+    script = (
+        "import sys; from compare.__main__ import main; main(['--row', 'T1-12']); "
+        "print(*(set(sys.modules) & {'compare.commands.chart', 'compare.chart_picture', "
+        "'matplotlib', 'distributed', 'scipy.ndimage', 'scipy.interpolate'}), file=sys.stderr)"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, text=True, check=True, timeout=60
+    )
+    assert done.stderr.strip() == ""
+    assert "T1-12" in done.stdout

@@ -18,6 +18,7 @@ import pytest
 
 from floquet.batch import c_kernel
 from floquet.batch.numpy_kernel import ORDER, TOLERANCE, Found, Points, by_numpy
+from floquet.batch.which_kernel import in_use
 from floquet.integrate.step_length import RADII, fastest_rate, longest_step
 
 pytestmark = pytest.mark.skipif(
@@ -61,6 +62,21 @@ def test_it_is_kept_and_belongs_to_the_user(own_cache: Path) -> None:
     c_kernel.forget()
     assert works()
     assert library(own_cache).stat().st_mtime_ns == first
+
+
+def test_it_is_said_which_kernel_is_in_use(
+    own_cache: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert in_use().endswith("none built yet")
+    assert works()
+    assert in_use().endswith("1 built and kept")
+    library(own_cache).chmod(0o666)  # what others can write to does not count
+    assert in_use().endswith("none built yet")
+    fake(tmp_path, monkeypatch, f"touch {tmp_path}/run; sleep 60")
+    assert in_use().startswith("compiled by fakecc")
+    assert not (tmp_path / "run").exists()
+    monkeypatch.setattr(c_kernel, "compiler", lambda: None)
+    assert in_use() == "by numpy, as there is no C compiler"
 
 
 @pytest.mark.parametrize("content", [b"", b"\x7fELF", None], ids=["empty", "ELF", "truncated"])
