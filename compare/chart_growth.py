@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from compare.chart_pixels import pixels
+from compare.chart_pixels import Pixels, pixels
 from compare.charts.result import Chart
 
 NAMES = 6.5
@@ -21,8 +21,14 @@ UNPROVEN = (0.45, 0.45, 0.45, 0.35)
 """Over the colour of a cell that is not proven as a whole."""
 
 
+def pixels_of(chart: Chart, size: tuple[float, float], log: Collection[str]) -> Pixels:
+    """Of a map of two axes that is so many inches wide and high."""
+    per_inch = PER_INCH[chart.scenario.reading.variable]
+    return pixels(chart, tuple(max(2, round(0.8 * inches * per_inch)) for inches in size), log)
+
+
 def growth_as_colour(
-    figure: Any, axes: Any, chart: Chart, size: tuple[float, float], log: Collection[str]
+    figure: Any, axes: Any, chart: Chart, shown: Pixels, log: Collection[str]
 ) -> list[Any]:
     """T as colour, at every pixel; what else there is in colours of their own, for the legend."""
     from matplotlib import colormaps
@@ -30,8 +36,6 @@ def growth_as_colour(
     from matplotlib.colors import LogNorm, to_rgba
     from matplotlib.patches import Patch
 
-    per_inch = PER_INCH[chart.scenario.reading.variable]
-    shown = pixels(chart, tuple(max(2, round(0.8 * inches * per_inch)) for inches in size), log)
     infinite = np.isinf(shown.T)
     unstable = (shown.verdict == "unstable") & ~infinite
     colours = np.ones((*shown.T.shape, 4))

@@ -11,13 +11,14 @@ import numpy as np
 
 from compare.chart_edges import draw_edges
 from compare.chart_files import about
-from compare.chart_growth import NAMES, growth_as_colour, growth_as_curve
+from compare.chart_growth import NAMES, growth_as_colour, growth_as_curve, pixels_of
 from compare.chart_names import write_names
+from compare.chart_pixels import Pixels
 from compare.chart_ticks import ticks_in_cycles
 from compare.charts.result import Chart
 from compare.edges.curves import Curve
 from compare.edges.tongue import Tongue
-from compare.edges.unnamed import unnamed
+from compare.edges.unnamed import uncovered
 from compare.provenance import picture_metadata
 from compare.symbols import of_value, symbol
 from hill import checks
@@ -39,6 +40,9 @@ SIZE, SIZES = (7.2, 4.6), (2.0, 40.0)
 DPI = 200
 CHARACTERS = 16.5
 """Of a title's line, an inch."""
+
+LETTER, HANDLE = 0.052, 0.4
+"""Inches of a legend's letter, and of what stands before its words."""
 
 MOST_NAMELESS = 12
 """Regions without a name that have a sign, those of the largest T."""
@@ -184,7 +188,8 @@ def _map(
     log: Collection[str],
 ) -> None:
     x, y = chart.axes
-    handles = growth_as_colour(figure, axes, chart, size, log)
+    shown = pixels_of(chart, size, log)
+    handles = growth_as_colour(figure, axes, chart, shown, log)
     handles += draw_edges(axes, boundaries, x.name)
     handles += _marked(axes, chart, marks, marks_label)
     if "Omega" in chart.scenario.names:
@@ -192,21 +197,28 @@ def _map(
         upright = x.name == "Omega"
         length = (0.8 if upright else 0.7) * size[0 if upright else 1]
         write_names(axes, own, x, y, log, length)
-        handles += _nameless(axes, chart, own)
+        handles += _nameless(axes, chart, shown, own)
     if len(handles) > 1:
         axes.legend(
             handles=handles,
             loc="upper left",
             bbox_to_anchor=(0.0, -0.55 / size[1]),
-            ncols=max(1, min(len(handles), int(size[0] / 1.15))),
+            ncols=_columns([handle.get_label() for handle in handles], 0.8 * size[0]),
             fontsize=NAMES,
             frameon=False,
         )
 
 
-def _nameless(axes: Any, chart: Chart, tongues: Sequence[Tongue]) -> list[Any]:
+def _nameless(axes: Any, chart: Chart, shown: Pixels, tongues: Sequence[Tongue]) -> list[Any]:
     """A sign where an unstable region has no tongue's name; what the legend says of it."""
-    regions = unnamed(chart, tongues)[:MOST_NAMELESS]
+    x, y = chart.axes
+    upright = x.name == "Omega"
+    unstable, T = shown.verdict == "unstable", shown.T
+    Omega, other = shown.points if upright else shown.points[::-1]
+    if not upright:
+        unstable, T = unstable.T, T.T
+    regions = uncovered(Omega, other, unstable, T, tongues, y.name if upright else x.name)
+    regions = regions[:MOST_NAMELESS]
     if not regions:
         return []
     places = [r.at if chart.axes[0].name == "Omega" else r.at[::-1] for r in regions]
@@ -263,7 +275,7 @@ def _wrapped(words: list[str], characters: int) -> list[str]:
     lines: list[str] = []
     length = characters
     for word in words:
-        seen = len(re.sub(r"\\mathrm|\\[A-Za-z]+|[${}_\\]", lambda m: "x" * (len(m[0]) > 1), word))
+        seen = _seen(word)
         length += 1 + seen
         if length > characters:
             lines.append(word)
@@ -271,3 +283,17 @@ def _wrapped(words: list[str], characters: int) -> list[str]:
         else:
             lines[-1] += f" {word}"
     return lines
+
+
+def _seen(word: str) -> int:
+    """Letters of it that are seen, of mathematics about."""
+    return len(re.sub(r"\\mathrm|\\[A-Za-z]+|[${}_\\]", lambda m: "x" * (len(m[0]) > 1), word))
+
+
+def _columns(labels: Sequence[str], inches: float) -> int:
+    """As many columns of a legend, filled one after the other, as the picture is wide."""
+    widths = [LETTER * _seen(label) + HANDLE for label in labels]
+    for columns in range(len(labels), 1, -1):
+        if sum(part.max() for part in np.array_split(widths, columns)) <= inches:
+            return columns
+    return 1

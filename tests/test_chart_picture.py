@@ -11,7 +11,7 @@ from compare import chart, tongues
 from compare.__main__ import main
 from compare.chart_edges import lines
 from compare.chart_names import names, spread
-from compare.chart_picture import CHARACTERS, _title, _wrapped, picture
+from compare.chart_picture import CHARACTERS, STYLE, _columns, _title, _wrapped, picture
 from compare.chart_pixels import pixels
 from compare.charts.certified import Certified
 from compare.edges.tongue import Tongue
@@ -221,3 +221,22 @@ def test_cells_that_are_not_proven_are_veiled(own, words):
     # a cell is what is nearest to its point
     assert np.array_equal(shown.unproven[4::10, 4::10], cells[:-1, :-1] == "undecided")
     assert "cell not proven as a whole" in words(picture(proven, (), "svg"))
+
+
+@pytest.mark.parametrize("width", [3.0, 7.2])
+def test_a_legend_is_no_wider_than_its_picture(width):
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    labels = ["stable", r"$\mu = 1$", "printed: unstable", "printed: stable", "a long one of words"]
+    labels += ["unstable, no tongue's name", "undecided", "no equation"]
+    figure = Figure(figsize=(width, 4.0))
+    FigureCanvasAgg(figure)
+    axes = figure.add_subplot()
+    handles = [axes.plot([0.0], [0.0], label=label)[0] for label in labels]
+    with matplotlib.rc_context(STYLE):
+        columns = _columns(labels, 0.8 * width)
+        legend = axes.legend(handles=handles, ncols=columns, fontsize=6.5)
+    figure.draw_without_rendering()
+    assert columns > (0 if width < 5.0 else 2)
+    assert legend.get_window_extent().width / figure.dpi < width

@@ -57,12 +57,34 @@ def unnamed(chart: Chart, tongues: Sequence[Tongue]) -> tuple[Region, ...]:
     turned = chart.axes[0] is y
     unstable = chart.unstable().T if turned else chart.unstable()
     T = chart.T.T if turned else chart.T
+    return uncovered(Omega.points, y.points, unstable, T, tongues, y.name)
+
+
+def uncovered(
+    Omega: Float,
+    y: Float,
+    unstable: NDArray[np.bool_],
+    T: Float,
+    tongues: Sequence[Tongue],
+    other: str,
+) -> tuple[Region, ...]:
+    """The same of any grid.
+
+    Parameters
+    ----------
+    Omega, y : ndarray
+        Its points, ascending.
+    unstable, T : (points of y, points of Omega) ndarray
+    tongues : sequence of Tongue
+    other : str
+        What y is.
+    """
     covered = np.zeros(unstable.shape, bool)
     for tongue in tongues:
-        rows = np.flatnonzero((y.points >= tongue.y[0]) & (y.points <= tongue.y[-1]))
-        low = np.interp(y.points[rows], tongue.y, tongue.lower)
-        high = np.interp(y.points[rows], tongue.y, tongue.upper)
-        x = Omega.points[None, :]
+        rows = np.flatnonzero((y >= tongue.y[0]) & (y <= tongue.y[-1]))
+        low = np.interp(y[rows], tongue.y, tongue.lower)
+        high = np.interp(y[rows], tongue.y, tongue.upper)
+        x = Omega[None, :]
         covered[rows] |= (x >= low[:, None]) & (x <= high[:, None])
     covered = binary_dilation(covered, iterations=CELLS_BEYOND_EDGES)
     marks, count = label(unstable & ~covered)
@@ -71,11 +93,11 @@ def unnamed(chart: Chart, tongues: Sequence[Tongue]) -> tuple[Region, ...]:
         rows, columns = np.nonzero(marks == k)
         if len(rows) >= MIN_CELLS:
             extent = (
-                ("Omega", *_ends(Omega.points[columns])),
-                (y.name, *_ends(y.points[rows])),
+                ("Omega", *_ends(Omega[columns])),
+                (other, *_ends(y[rows])),
             )
             top = int(np.argmax(T[rows, columns]))
-            at = float(Omega.points[columns[top]]), float(y.points[rows[top]])
+            at = float(Omega[columns[top]]), float(y[rows[top]])
             found.append(Region(extent, len(rows), float(T[rows[top], columns[top]]), at))
     return tuple(sorted(found, key=lambda region: -region.T))
 
