@@ -4,6 +4,7 @@ import os
 import signal
 import threading
 import time
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -11,7 +12,14 @@ import pytest
 from threadpoolctl import threadpool_info
 
 import compare.jobs.workers
-from compare.jobs.workers import WorkersError, mapper, unordered
+from compare.jobs.workers import (
+    STARTING,
+    MapLike,
+    WorkersError,
+    mapper,
+    unordered,
+    worth_starting,
+)
 
 
 def square(x: int) -> int:
@@ -88,6 +96,40 @@ def test_minus_one_is_every_core(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(compare.jobs.workers, "cores", lambda: 1)
     with mapper(-1) as run:
         assert run is map
+
+
+def where(seconds: float) -> int:
+    time.sleep(seconds)
+    return os.getpid()
+
+
+@pytest.mark.parametrize("way", [lambda run: run, unordered])
+def test_all_cores_are_started_when_they_are_worth_it(
+    way: Callable[[MapLike], MapLike], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(compare.jobs.workers, "cores", lambda: 2)
+    monkeypatch.setattr(compare.jobs.workers, "STARTING", 0.2)
+    with mapper(-1) as run:
+        assert set(way(run)(where, [0.0] * 50)) == {os.getpid()}
+        # the first long job is done here, the others are worth two processes
+        first, *others = way(run)(where, [0.1] * 6)
+        assert first == os.getpid()
+        assert os.getpid() not in others
+        # and what has been started stays
+        assert os.getpid() not in set(way(run)(where, [0.0] * 3))
+    for pid in others:
+        with pytest.raises(ProcessLookupError):
+            os.kill(pid, 0)
+
+
+def test_processes_are_worth_what_they_save() -> None:
+    # two of them save half; the last round of an odd number saves nothing
+    assert not worth_starting(STARTING, 1, 2)
+    assert not worth_starting(0.99 * STARTING, 2, 2)
+    assert worth_starting(1.01 * STARTING, 3, 2)
+    assert worth_starting(0.26 * STARTING, 5, 8)
+    assert not worth_starting(1e-3, 1000, 8)
+    assert not worth_starting(10.0, 0, 8)
 
 
 @pytest.mark.parametrize("workers", [0, -2, 1.5, True, "2", None])

@@ -130,7 +130,11 @@ def configure(p: argparse.ArgumentParser) -> None:
     p.add_argument("--route", choices=ROUTES, default="both", help="who evaluates (default both)")
     p.add_argument("--tolerance", type=float, default=1e-11, help="of P (default 1e-11)")
     p.add_argument(
-        "--workers", type=int, default=1, metavar="N", help="processes, -1 for one a core"
+        "--workers",
+        type=int,
+        default=1,
+        metavar="N",
+        help="processes, -1 for one a core, if worth starting",
     )
     p.add_argument("--cluster", metavar="ADDRESS", help="a Dask scheduler instead (extra cluster)")
     p.add_argument("--resume", type=Path, metavar="FILE", help="keep finished nodes there")

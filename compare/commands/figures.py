@@ -67,7 +67,10 @@ def run(options: argparse.Namespace) -> int:
     _prepare(options.output)
     job = partial(drawn, formats=formats, captioned=not options.no_captions)
     lines: list[tuple[int, str]] = []
-    with progress("figures", len(numbers)) as advance, mapper(options.workers) as each:
+    with (
+        progress("figures", len(numbers)) as advance,
+        mapper(options.workers, long_jobs=True) as each,
+    ):
         for group in each(job, tasks(numbers)):
             for number, files, line in group:
                 # here and not there: who computes may be ended at any time

@@ -71,7 +71,11 @@ def configure(p: argparse.ArgumentParser) -> None:
         "--output", type=Path, metavar="FILE", help="write there instead of the terminal"
     )
     p.add_argument(
-        "--workers", type=int, default=1, metavar="N", help="processes, -1 for one a core"
+        "--workers",
+        type=int,
+        default=1,
+        metavar="N",
+        help="processes, -1 for one a core, if worth starting",
     )
 
 

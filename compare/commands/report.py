@@ -83,7 +83,11 @@ def configure(p: argparse.ArgumentParser) -> None:
         "--no-claims", action="store_true", help="leave out the conclusions, which take longest"
     )
     p.add_argument(
-        "--workers", type=int, default=1, metavar="N", help="processes, -1 for one a core"
+        "--workers",
+        type=int,
+        default=1,
+        metavar="N",
+        help="processes, -1 for one a core, if worth starting",
     )
 
 

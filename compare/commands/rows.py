@@ -98,7 +98,11 @@ def configure(p: argparse.ArgumentParser) -> None:
         "it and estimate the limit too",
     )
     p.add_argument(
-        "--workers", type=int, default=1, metavar="N", help="processes, -1 for one a core"
+        "--workers",
+        type=int,
+        default=1,
+        metavar="N",
+        help="processes, -1 for one a core, if worth starting",
     )
 
 

@@ -4,10 +4,13 @@ import os
 import pickle
 import signal
 import threading
+import time
+from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
+from functools import partial
 from multiprocessing import parent_process
 from multiprocessing.context import SpawnContext, SpawnProcess
 from typing import Any
@@ -18,7 +21,11 @@ MapLike = Callable[[Callable[[Any], Any], Iterable[Any]], Iterable[Any]]
 """A function that maps like `map` and keeps the order."""
 
 ALL_CORES = -1
-"""As SciPy says "all cores"."""
+"""As SciPy says "all cores": as many as there are, once they are worth starting."""
+
+STARTING = 3.0
+"""Seconds that several processes must save to be started. It takes one to two until the first has
+this package and its libraries; jobs to come may be shorter than the last one."""
 
 # As many processes as cores leave nothing for BLAS threads to do but wait for each other.
 ONE_THREAD = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), "1")
@@ -29,16 +36,19 @@ class WorkersError(RuntimeError):
 
 
 @contextmanager
-def mapper(workers: int | MapLike, chunk: int = 1) -> Iterator[MapLike]:
+def mapper(workers: int | MapLike, chunk: int = 1, *, long_jobs: bool = False) -> Iterator[MapLike]:
     """A map over jobs.
 
     Parameters
     ----------
     workers : int or map-like
-        Processes, -1 for one a core, or the map itself. Processes are spawned, each with one BLAS
-        thread, and go when this process goes, however it ends.
+        Processes, or the map itself. Processes are spawned, each with one BLAS thread, and go when
+        this process goes, however it ends. -1 is one a core, started only when what is left to do,
+        measured by the last job done here, is worth it; until then jobs are done in this process.
     chunk : int, optional
         Jobs handed to a process at a time.
+    long_jobs : bool, optional
+        Each takes seconds: -1 then starts at once.
 
     Raises
     ------
@@ -60,6 +70,17 @@ def mapper(workers: int | MapLike, chunk: int = 1) -> Iterator[MapLike]:
     if count == 1:
         yield map
         return
+    if workers == ALL_CORES and not long_jobs:
+        with ExitStack() as stack:
+            start = partial(stack.enter_context, _processes(count, chunk))
+            yield _WhenWorthIt(count, start)
+        return
+    with _processes(count, chunk) as run:
+        yield run
+
+
+@contextmanager
+def _processes(count: int, chunk: int) -> Iterator["_Processes"]:
     context = _Context()
     pool = ProcessPoolExecutor(count, mp_context=context, initializer=_follow_parent)
     try:
@@ -82,6 +103,43 @@ def cores() -> int:
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1
+
+
+def worth_starting(seconds: float, left: int, count: int) -> bool:
+    """Whether `count` processes would save `STARTING` on so many jobs that take so long each."""
+    rounds = -(-left // count)  # the last round may leave some without a job
+    return seconds * (left - rounds) > STARTING
+
+
+class _WhenWorthIt:
+    """Jobs are done here, until those that are left are worth several processes."""
+
+    def __init__(self, count: int, start: Callable[[], "_Processes"]) -> None:
+        self._count, self._start = count, start
+        self._processes: _Processes | None = None
+
+    def __call__(self, function: Callable[[Any], Any], jobs: Iterable[Any]) -> Iterator[Any]:
+        left = deque(jobs)
+        yield from self._here(function, left)
+        if self._processes is not None:
+            yield from self._processes(function, left)
+
+    def unordered(self, function: Callable[[Any], Any], jobs: Iterable[Any]) -> Iterator[Any]:
+        """Results as they are ready."""
+        left = deque(jobs)
+        yield from self._here(function, left)
+        if self._processes is not None:
+            yield from self._processes.unordered(function, left)
+
+    def _here(self, function: Callable[[Any], Any], left: deque[Any]) -> Iterator[Any]:
+        """Take jobs from the left and do them, while there are no processes."""
+        while left and self._processes is None:
+            started = time.perf_counter()
+            result = function(left.popleft())
+            seconds = time.perf_counter() - started
+            yield result
+            if worth_starting(seconds, len(left), self._count):
+                self._processes = self._start()
 
 
 class _Processes:

@@ -113,7 +113,7 @@ def page(rows: Iterable[RowProof] | None = None, charted: Chart | None = None) -
         Certified; computed where not given.
     """
     if rows is None:
-        with mapper(ALL_CORES) as over:
+        with mapper(ALL_CORES, long_jobs=True) as over:
             rows = tuple(over(partial(prove_row, interval=True), all_rows()))
     if charted is None:
         uniform: dict[str, Any] = dict(UNIFORM)
