@@ -1,5 +1,6 @@
 """What can be charted: a point's equation, or one line that says why there is none."""
 
+import math
 from collections.abc import Mapping
 from contextlib import suppress
 from typing import Any
@@ -59,17 +60,28 @@ def checked(system: Any, values: Values, fixed: Values) -> Equation:
     return model
 
 
-def slow_enough(model: Equation) -> bool:
-    """Whether the motion turns by no more than `MAX_RADIANS` a period."""
-    if isinstance(model, PeriodicEquation):
-        return model.period * fastest_motion(model) <= MAX_RADIANS
-    with np.errstate(over="ignore"):
-        largest = np.max(np.abs(model.F)) + abs(model.gamma) * np.max(np.abs(model.G))
-        largest += sum(np.max(np.abs(H)) for H in model.H)
+def slow_enough(model: Equation, sizes: tuple[float, float] | None = None) -> bool:
+    """Whether the motion turns by no more than `MAX_RADIANS` a period.
+
+    Parameters
+    ----------
+    model : HillEquation or PeriodicEquation
+    sizes : (float, float), optional
+        `largest_elements` of it, where they are known: of many equations with the same matrices.
+    """
+    if isinstance(model, HillEquation):
+        F, G = sizes or largest_elements(model)
         # no eigenvalue is larger than n times the largest element
-        if model.period * np.sqrt(model.n * largest) <= MAX_RADIANS:
+        if model.period * math.sqrt(model.n * (F + abs(model.gamma) * G)) <= MAX_RADIANS:
             return True
     return model.period * fastest_motion(model) <= MAX_RADIANS
+
+
+def largest_elements(model: HillEquation) -> tuple[float, float]:
+    """Of F and all H together, and of G."""
+    with np.errstate(over="ignore"):
+        constant = sum((np.max(np.abs(H)) for H in model.H), np.max(np.abs(model.F)))
+    return float(constant), float(np.max(np.abs(model.G)))
 
 
 def _check_promise(system: Any, model: HillEquation, forcing: Values) -> None:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from compare.charts.axis import Axis
-from compare.charts.limits import checked, own_equation, slow_enough
+from compare.charts.limits import checked, largest_elements, own_equation, slow_enough
 from compare.stability.reading import Reading, reading_of
 from compare.vehicle.damping import damping_as_forcing
 from floquet.witness import maker
@@ -109,7 +109,9 @@ class Scenario:
         """
         make = (maker(self.system) if route == "floquet" else None) or own_equation
         systems: dict[Any, Any] = {}
-        made: dict[Any, Equation] = {}
+        made: dict[
+            Any, tuple[HillEquation, tuple[float, float]]
+        ] = {}  # with their largest elements
         found: list[Equation | None] = []
         own_names = [name for name in points if name not in FORCING]
         for line in zip(*points.values(), strict=True):
@@ -123,11 +125,14 @@ class Scenario:
             key = (own, forcing["Omega"] if moves or moves is None else None)
             known = made.get(key) if moves is not None else None
             try:
-                if isinstance(known, HillEquation) and not known.H:
-                    one = known.forced(**forcing)
-                else:
-                    one = made[key] = self.reading.form(make(system, **forcing), forcing["eta"])
-                found.append(one if slow_enough(one) else None)
+                if known is not None:
+                    one = known[0].forced(**forcing)
+                    found.append(one if slow_enough(one, known[1]) else None)
+                    continue
+                new = self.reading.form(make(system, **forcing), forcing["eta"])
+                if isinstance(new, HillEquation) and not new.H:
+                    made[key] = new, largest_elements(new)
+                found.append(new if slow_enough(new) else None)
             except Singular:
                 found.append(None)
         return found
