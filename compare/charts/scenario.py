@@ -109,9 +109,7 @@ class Scenario:
         """
         make = (maker(self.system) if route == "floquet" else None) or own_equation
         systems: dict[Any, Any] = {}
-        made: dict[
-            Any, tuple[HillEquation, tuple[float, float]]
-        ] = {}  # with their largest elements
+        made: dict[Any, tuple[HillEquation, tuple[float, float]]] = {}
         found: list[Equation | None] = []
         own_names = [name for name in points if name not in FORCING]
         for line in zip(*points.values(), strict=True):
@@ -125,7 +123,7 @@ class Scenario:
             key = (own, forcing["Omega"] if moves or moves is None else None)
             known = made.get(key) if moves is not None else None
             try:
-                if known is not None:
+                if known is not None:  # its matrices, and how large their elements are
                     one = known[0].forced(**forcing)
                     found.append(one if slow_enough(one, known[1]) else None)
                     continue
