@@ -18,7 +18,7 @@ COMMON = (
     Parameter("T0", dependence="linear"),
     Parameter("K_theta", dependence="linear"),
     Parameter("xi_G", 0.0, 1.0),
-    Parameter("omega_L", 0.0, moves=("G", "H")),
+    Parameter("omega_L", 0.0, smooth="ratio", moves=("G", "H")),
 )
 
 # Rounding of the closed forms, over the largest element: against ball arithmetic they were off by

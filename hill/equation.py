@@ -93,8 +93,12 @@ class HillEquation:
         if self.H:
             _ = self.ratio
 
-    def forced(self, *, Omega: float, gamma: float, eta: float) -> "HillEquation":
+    def forced(
+        self, *, Omega: float, gamma: float, eta: float, omega_L: float | None = None
+    ) -> "HillEquation":
         """The same matrices under another forcing; they are not checked again.
+
+        `omega_L` is another one too, where that is given.
 
         Raises
         ------
@@ -112,7 +116,9 @@ class HillEquation:
             Omega=checks.between("Omega", checks.positive("Omega", Omega), *SQUARABLE),
             eta=checks.number("eta", eta),
             H=(),
-            omega_L=self.omega_L,
+            omega_L=self.omega_L
+            if omega_L is None
+            else checks.positive("omega_L", omega_L, or_infinite=True),
             data_error=self.data_error,
         )
         return other

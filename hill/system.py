@@ -18,7 +18,7 @@ Float = NDArray[np.float64]
 FORCING = ("Omega", "gamma", "eta")
 """What every system is asked at; no parameter of its own may be called so."""
 
-SMOOTH = ("value", "reciprocal")
+SMOOTH = ("value", "reciprocal", "ratio")
 
 
 @dataclass(frozen=True)
@@ -33,9 +33,10 @@ class Parameter:
     dependence : {"analytic", "linear"}
         How F, G and H move with it: analytically between singular points, or linearly everywhere
         (a constant and a slope).
-    smooth : {"value", "reciprocal"}
-        The variable in which a chart's series runs: the parameter itself, or one over it (for a
-        length, say, that is divided by); `low` must then be 0 or more.
+    smooth : {"value", "reciprocal", "ratio"}
+        The variable in which a chart's series runs: the parameter itself; one over it (for a
+        length, say, that is divided by); or Omega over it, where the system knows a frequency by
+        that ratio alone, so that its poles are there. `low` must then be 0 or more.
     moves : tuple of str
         Which of "F", "G" and "H" move with it.
     """
@@ -44,7 +45,7 @@ class Parameter:
     low: float = -math.inf
     high: float = math.inf
     dependence: Literal["analytic", "linear"] = "analytic"
-    smooth: Literal["value", "reciprocal"] = "value"
+    smooth: Literal["value", "reciprocal", "ratio"] = "value"
     moves: tuple[str, ...] = ("F", "G", "H")
 
     def __post_init__(self) -> None:
@@ -56,10 +57,10 @@ class Parameter:
                     f"parameter {self.name!r}: {name} = {getattr(self, name)!r}: must be one of "
                     f"{', '.join(known)}"
                 )
-        if self.smooth == "reciprocal" and not self.low >= 0.0:
+        if self.smooth != "value" and not self.low >= 0.0:
             raise ValueError(
                 f"parameter {self.name!r}: low = {self.low:g}: must be at least 0 with "
-                "smooth = 'reciprocal'"
+                f"smooth = {self.smooth!r}"
             )
 
 

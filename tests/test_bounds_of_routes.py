@@ -13,7 +13,7 @@ from floquet import batch as floquet_batch
 from floquet import monodromy
 from floquet.accuracy import moved_by_data
 from floquet.batch import equations as sweeps
-from floquet.batch.numpy_kernel import Found, Points, _folded, _terms
+from floquet.batch.numpy_kernel import Found, Points, _folded, terms_of
 from floquet.data_errors import data_share, subtraction_error
 from hill import HillEquation, characteristic
 from hill.determinant import converged, finite, folding, rounding
@@ -385,5 +385,5 @@ def test_the_largest_that_an_element_has_been_counts() -> None:
 def test_steps_are_for_F_and_the_damping_together() -> None:
     """Moduli: they may have either sign."""
     points = Points(np.array([[[3.0]], [[1.0]]]), np.ones((2, 2)), np.array([5.0, 7.0]), (1,))
-    (F, _), (G, frequency) = _terms(points)
+    (F, _), (G, frequency) = terms_of(points)
     assert (F[0, 0], G[0, 0], frequency) == (10.0, 1.0, 1.0)

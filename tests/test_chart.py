@@ -12,7 +12,7 @@ import pytest
 from commands import refusal
 
 from compare.__main__ import main
-from compare.charts import chebyshev, compute, grid, surface
+from compare.charts import chebyshev, compute, cuts, grid, surface
 from compare.charts.compute import chart
 from compare.charts.nodes import NODES_PER_JOB
 from compare.charts.result import Chart
@@ -149,8 +149,7 @@ def test_both_routes_sample_and_meet() -> None:
 
 
 def test_a_pole_of_the_axial_force_is_met_directly(monkeypatch: pytest.MonkeyPatch) -> None:
-    # two cuts are enough to see the pole left to direct evaluation
-    monkeypatch.setattr(surface, "MAX_CUTS", 2)
+    monkeypatch.setattr(cuts, "MAX_GRADED", 2)
     monkeypatch.setattr(surface, "MAX_POINTS", 33)
     soft = UniformBeam(T0=20.0, K_theta=0.5, xi_G=0.5, omega_L=2.0)
     near = chart(

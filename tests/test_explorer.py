@@ -10,7 +10,6 @@ import pytest
 from compare import chart, crosscheck, tongues
 from compare.__main__ import main
 from compare.charts import surface
-from compare.charts.axis import to_smooth
 from compare.explorer import page as module
 from compare.explorer.data import data_of
 from compare.explorer.page import explorer_page
@@ -49,6 +48,11 @@ CHARTS = {
         PeriodicSystem(K=K, C=C, frequency_names=("low", "high")),
         [("Omega", 2.8, 3.8, 40), ("gamma", 0.0, 1.0, 30)],
         {},
+    ),
+    "poles askew": (
+        UniformBeam(T0=20.0, K_theta=0.5, xi_G=0.5),
+        [("Omega", 1.6, 2.4, 71), ("omega_L", 1.5, 3.0, 61)],
+        {"gamma": 0.1},
     ),
     "poles": (
         UniformBeam(T0=20.0, K_theta=0.5, xi_G=0.5, omega_L=2.3),
@@ -94,7 +98,9 @@ def test_the_script_evaluates_what_python_does(name, pages, browser):
     opened(browser, path)
     random = np.random.default_rng(7)
     points = np.column_stack([a.low + (a.high - a.low) * random.random(4000) for a in own.axes])
-    has_series = np.isfinite(surface.evaluate(own.surface, to_smooth(own.axes, points))[1])
+    has_series = np.isfinite(
+        surface.evaluate(own.surface, own.scenario.smooth.to_smooth(points))[1]
+    )
     points = points[has_series][:1000]
     assert len(points) == 1000
     found = browser.run(
@@ -128,12 +134,8 @@ def test_what_has_no_series_is_told_of_the_charts_own_point(pages, browser):
     own, path = pages("poles")
     opened(browser, path)
     Omega, gamma = own.axes
-    alone = np.concatenate(
-        [
-            np.stack(np.meshgrid(*cells.chosen, indexing="ij"), -1).reshape(-1, 2)
-            for cells in own.alone
-        ]
-    )
+    indices = np.indices([axis.count for axis in own.axes])
+    alone = np.concatenate([indices[:, *cells.where].reshape(2, -1) for cells in own.alone], 1).T
     assert len(alone) > 50
     points = np.column_stack([Omega.points[alone[:, 0]], gamma.points[alone[:, 1]]])
     found = browser.run(

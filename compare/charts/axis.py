@@ -27,9 +27,8 @@ class Axis:
     name : str
     low, high : float
     count : int
-    smooth : {"value", "reciprocal"}
-        The variable of the series, as a `hill.Parameter` has it; of Omega always its reciprocal,
-        since P depends on it through F/Omega^2 and G/Omega^2.
+    smooth : {"value", "reciprocal", "ratio"}
+        The variable of the series, as a `hill.Parameter` has it; of Omega always its reciprocal.
 
     Raises
     ------
@@ -54,7 +53,7 @@ class Axis:
             raise ValueError(f"{self.name} from {low:g} to {high:g}: must ascend")
         if self.name == "Omega":
             checks.store(self, smooth="reciprocal")
-        if self.smooth == "reciprocal" and low <= 0.0:
+        if self.smooth != "value" and low <= 0.0:
             raise ValueError(f"{self.name} from {low:g}: must be greater than 0")
 
     @property
@@ -62,36 +61,14 @@ class Axis:
         """Where the chart is evaluated."""
         return np.linspace(self.low, self.high, self.count)
 
-    def to_smooth(self, value: Float) -> Float:
-        """The variable in which P(z) is smooth."""
-        return 1.0 / value if self.smooth == "reciprocal" else np.asarray(value, float)
-
-    def from_smooth(self, value: Float) -> Float:
-        """Back again."""
-        return self.to_smooth(value)
+    def to_smooth(self, value: Float, Omega: Any) -> Float:
+        """The variable in which P(z) is smooth at `Omega`, and back: it is its own inverse."""
+        if self.smooth == "value":
+            return np.asarray(value, float)
+        return (1.0 if self.smooth == "reciprocal" else Omega) / value
 
     @property
-    def span(self) -> tuple[float, float]:
-        """The axis in its smooth variable, ascending; Omega wider than it is drawn, by `MARGIN`."""
+    def reach(self) -> tuple[float, float]:
+        """What the series are made for: Omega wider than it is drawn, by `MARGIN`."""
         margin = MARGIN if self.name == "Omega" else 1.0
-        ends = (self.low / margin, self.high * margin)
-        low, high = sorted(float(self.to_smooth(np.asarray(value))) for value in ends)
-        return low, high
-
-    @property
-    def drawn(self) -> tuple[float, float]:
-        """The axis as it is drawn, in its smooth variable, ascending."""
-        low, high = sorted(
-            float(self.to_smooth(np.asarray(value))) for value in (self.low, self.high)
-        )
-        return low, high
-
-
-def to_smooth(axes: tuple[Axis, ...], values: Float) -> Float:
-    """Parameters (k, axes) in the variables in which P is smooth."""
-    return np.column_stack([a.to_smooth(x) for a, x in zip(axes, values.T, strict=True)])
-
-
-def from_smooth(axes: tuple[Axis, ...], smooth: Float) -> Float:
-    """Back again."""
-    return np.column_stack([a.from_smooth(x) for a, x in zip(axes, smooth.T, strict=True)])
+        return self.low / margin, self.high * margin

@@ -114,6 +114,12 @@ def _parts(counts: Sequence[int], most: int) -> list[list[slice]]:
     return result
 
 
+def along(series: Float, axis: int, x: Float) -> Float:
+    """Sum the series along one axis, which is then that of the points x."""
+    table = basis(x, series.shape[axis])
+    return np.moveaxis(np.tensordot(series, table, axes=(axis, 1)), -1, axis)
+
+
 def at_points(series: Float, points: tuple[Float, ...]) -> Float:
     """Sum the series at scattered points, one array of coordinates an axis; leading axes stay."""
     first = series.ndim - len(points)

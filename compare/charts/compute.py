@@ -12,12 +12,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from compare.charts import surface
-from compare.charts.axis import MAX_POINTS, Axis, from_smooth
+from compare.charts.axis import MAX_POINTS, Axis
 from compare.charts.certified import certify as certified_cells
 from compare.charts.grid import Cells, from_series, on_mesh, one_by_one, reasons
 from compare.charts.nodes import ROUTES, Nodes, solved
+from compare.charts.poles import singular_across
 from compare.charts.result import Chart
-from compare.charts.scenario import Scenario, scenario, singular_across
+from compare.charts.scenario import Scenario, scenario
+from compare.charts.smooth import Smooth
 from compare.jobs.workers import MapLike, mapper
 from hill import System, checks
 
@@ -102,22 +104,22 @@ def chart(
         raise ValueError(f"route = {route!r}: must be one of {', '.join(ROUTES)}")
     checks.between("tolerance", tolerance, MIN_TOLERANCE, MAX_TOLERANCE)
 
-    low, high = np.array([axis.span for axis in wanted.axes]).T
+    smooth = wanted.smooth
     with mapper(workers) as run:
         proven = certified_cells(wanted, run, stage) if certify else None
         store = Path(resume) if resume else None
         sampler = Nodes(wanted, route, run, store, progress, stage)
         fitted = surface.fit(
             sampler,
-            low,
-            high,
+            *smooth.span,
             tolerance,
-            partial(_points_wanted, wanted.axes),
+            partial(_points_wanted, smooth),
             partial(singular_across, wanted),
             partial(_covered, stage) if stage else None,
             points,
+            smooth.kept,
         )
-        alone = one_by_one(fitted, wanted.axes, sampler.at, MAX_DIRECT)
+        alone = one_by_one(fitted, smooth, sampler.at, MAX_DIRECT)
     sampled, apart = sampler.sampled
     checked, made = _check(fitted, wanted, "hill" if route == "hill" else "floquet")
     error, relative_error = _errors(fitted, alone)
@@ -145,14 +147,12 @@ def _covered(stage: Stage, share: float) -> None:
     stage("thousandths of the range", round(1000 * share), 1000)
 
 
-def _points_wanted(axes: tuple[Axis, ...], low: Float, high: Float) -> float:
+def _points_wanted(smooth: Smooth, low: Float, high: Float) -> float:
     """Points of the grid in a rectangle of smooth coordinates, or its share of the nominal ones."""
-    points, share = 1, 1.0
-    for axis, a, b in zip(axes, low, high, strict=True):
-        smooth, (start, end) = axis.to_smooth(axis.points), axis.span
-        points *= int(np.count_nonzero((smooth >= a) & (smooth <= b)))
-        share *= (b - a) / (end - start)
-    return max(points, share * NOMINAL_POINTS)
+    start, end = smooth.span
+    part = smooth.part(low, high)
+    share = float(np.prod((high - low) / (end - start)))
+    return max(part.count if part else 0, share * NOMINAL_POINTS)
 
 
 def _errors(fitted: surface.Surface, alone: Sequence[Cells]) -> tuple[float, float]:
@@ -175,7 +175,7 @@ def argument(fitted: surface.Surface, alone: Sequence[Cells], wanted: Scenario) 
     """
     T = np.full([axis.count for axis in reversed(wanted.axes)], np.nan)
     Omega, eta = on_mesh(wanted)
-    for cells in chain(from_series(fitted, wanted.axes), alone):
+    for cells in chain(from_series(fitted, wanted.smooth), alone):
         P, at = cells.P, [cells.spread(x) for x in (Omega, eta)]
         there = np.all(np.isfinite(P), axis=0)
         if np.all(there):
@@ -199,13 +199,13 @@ def _check(fitted: surface.Surface, wanted: Scenario, route: str) -> tuple[float
         It exceeds the series' own bound, which then is none.
     """
     # within what is drawn, not in the margin that tongues may reach into
-    low, high = np.array([axis.drawn for axis in wanted.axes]).T
-    smooth = low + (high - low) * np.random.default_rng(0).random((CHECKS, len(low)))
+    shares = np.random.default_rng(0).random((CHECKS, len(wanted.axes)))
+    smooth = wanted.smooth.scattered(shares)
     P, error = surface.evaluate(fitted, smooth)
     known = np.flatnonzero(np.isfinite(error))
     if not len(known):
         return None, 0
-    values = from_smooth(wanted.axes, smooth[known])
+    values = wanted.smooth.from_smooth(smooth[known])
     lines = solved(wanted, dict(zip(wanted.names, values.T, strict=True)), route)
     own = lines[:, -2]
     apart = np.max(np.abs(P[:, known].T - lines[:, :-2]), axis=1)

@@ -9,7 +9,7 @@ import numpy as np
 
 from hill import HillEquation, PeriodicEquation, Singular, checks
 from hill.averaging import fastest_motion
-from hill.system import FORCING, varied
+from hill.system import FORCING, parameter_values, varied
 
 Values = Mapping[str, float]
 Equation = HillEquation | PeriodicEquation
@@ -95,13 +95,7 @@ def _check_promise(system: Any, model: HillEquation, forcing: Values) -> None:
         "gamma": 0.5 * gamma + 0.125,
         "eta": 0.5 * eta + 0.03125 * Omega,
     }
-    other = own_equation(system, **asked)
-    kept = (
-        isinstance(other, HillEquation)
-        and np.array_equal(other.F, model.F)
-        and np.array_equal(other.G, model.G)
-        and (other.Omega, other.gamma, other.eta) == tuple(asked.values())
-    )
+    kept = _same(own_equation(system, **asked), model, asked)
     own = model.damping - eta if np.ndim(model.eta) == 0 else 0.0
     if own and not kept:
         raise ValueError(
@@ -114,6 +108,26 @@ def _check_promise(system: Any, model: HillEquation, forcing: Values) -> None:
             f"move with {'' if moves else 'Omega, '}gamma and eta and a forcing as asked for; "
             "leave it out, or make them so"
         )
+    for p in (p for p in system.parameters if moves and p.smooth == "ratio"):
+        half = 0.5 * parameter_values(system)[p.name]
+        asked["Omega"] = 0.5 * Omega
+        if half >= p.low and not _same(
+            own_equation(varied(system, {p.name: half}), **asked), model, asked
+        ):
+            raise ValueError(
+                f"parameter {p.name!r}: says smooth = 'ratio': F and G must then be the same where "
+                "Omega over it is; leave it out, or make them so"
+            )
+
+
+def _same(other: Equation, model: HillEquation, forcing: Values) -> bool:
+    """Whether the matrices are, and the forcing is as asked."""
+    return (
+        isinstance(other, HillEquation)
+        and np.array_equal(other.F, model.F)
+        and np.array_equal(other.G, model.G)
+        and (other.Omega, other.gamma, other.eta) == tuple(forcing.values())
+    )
 
 
 def own_equation(system: Any, Omega: float, gamma: float, eta: float) -> Equation:

@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from compare.charts.axis import from_smooth
 from compare.charts.identity import (
     code_fingerprint,
     own_modules,
@@ -204,7 +203,7 @@ class Nodes:
 
     def __call__(self, smooth: Float) -> tuple[Float, Float]:
         """Coefficients of P and their errors at smooth coordinates (k, axes)."""
-        return self.at(from_smooth(self.scenario.axes, smooth))
+        return self.at(self.scenario.smooth.from_smooth(smooth))
 
     def at(self, points: Float) -> tuple[Float, Float]:
         """Coefficients of P and their errors at values of the axes (k, axes)."""
@@ -245,9 +244,12 @@ class Nodes:
         Nodes of one system come together, and those of like Omega: they share matrices and steps.
         """
         # the last key is the slowest to vary: the system's parameters, then Omega, gamma, eta
-        names = self.scenario.names
+        names, smooth = self.scenario.names, self.scenario.smooth
         slower = sorted(range(len(names)), key=lambda k: _sort_rank(names[k]))
-        ordered = points[np.lexsort(points.T[slower])]
+        keys = points.copy()
+        if smooth.ratio is not None:
+            keys[:, smooth.ratio] = smooth.to_smooth(points)[:, smooth.ratio]
+        ordered = points[np.lexsort(keys.T[slower])]
         code, own = code_of(self.scenario), own_modules(self.scenario.system)
         jobs = []
         for k in range(0, len(ordered), NODES_PER_JOB):

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from compare.charts import nodes, surface
-from compare.charts.axis import Axis, to_smooth
+from compare.charts.axis import Axis
 from compare.charts.certified import Certified
 from compare.charts.grid import Cells, Omega_and_eta, from_series, on_mesh
 from compare.charts.scenario import Scenario
@@ -240,7 +240,7 @@ class Chart:
 
     def _cells(self) -> Iterator[tuple[Cells, Float, Float]]:
         Omega, eta = on_mesh(self.scenario)
-        for cells in chain(from_series(self.surface, self.axes), self.alone):
+        for cells in chain(from_series(self.surface, self.scenario.smooth), self.alone):
             yield cells, cells.spread(Omega), cells.spread(eta)
 
     def _known(self, cells: Cells, Omega: Float, eta: Float) -> tuple[Float, ...]:
@@ -263,7 +263,7 @@ def _at(chart: Chart, values: Mapping[str, ArrayLike]) -> Points:
                 f"{axis.name} = {x[beyond].flat[0]:g}: must be from {axis.low:g} to {axis.high:g}"
             )
     points = np.column_stack([x.ravel() for x in arrays])
-    P, error = surface.evaluate(chart.surface, to_smooth(chart.axes, points))
+    P, error = surface.evaluate(chart.surface, chart.scenario.smooth.to_smooth(points))
     without = ~np.isfinite(error)
     if np.any(without):
         found, own = directly(chart, points[without])

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from compare.charts.axis import Axis
 from compare.charts.limits import checked, largest_elements, own_equation, slow_enough
+from compare.charts.smooth import Smooth
 from compare.stability.reading import Reading, reading_of
 from compare.vehicle.damping import damping_as_forcing
 from floquet.witness import maker
@@ -21,7 +22,6 @@ from hill.system import (
     frequency_names,
     natural_frequencies,
     parameter_values,
-    singular_Omega,
     varied,
 )
 
@@ -29,13 +29,6 @@ Float = NDArray[np.floating[Any]]
 Complex = NDArray[np.complexfloating[Any, Any]]
 Values = Mapping[str, float]
 Equation = HillEquation | PeriodicEquation
-
-POLE_CLEARANCE = 0.25
-"""Widths of a box: a series over it whose nearest pole is farther than this converges by 2.6 a
-term, whatever the residue."""
-
-# Two floats that far apart are a pole met exactly, where neither Omega nor the pole is varied.
-SAME_OMEGA = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,6 +57,11 @@ class Scenario:
     def names(self) -> tuple[str, ...]:
         """The axes' names."""
         return tuple(axis.name for axis in self.axes)
+
+    @property
+    def smooth(self) -> Smooth:
+        """The variables of its series."""
+        return Smooth(self.axes, self.forcing.get("Omega", float("nan")))
 
     @property
     def shared_matrices(self) -> bool:
@@ -112,6 +110,7 @@ class Scenario:
         made: dict[Any, tuple[HillEquation, tuple[float, float]]] = {}
         found: list[Equation | None] = []
         own_names = [name for name in points if name not in FORCING]
+        ratio = next((p.name for p in self.system.parameters if p.smooth == "ratio"), None)
         for line in zip(*points.values(), strict=True):
             values = dict(zip(points, map(float, line), strict=True))
             own = tuple(values[name] for name in own_names)
@@ -119,12 +118,19 @@ class Scenario:
                 systems[own] = varied(self.system, {name: values[name] for name in own_names})
             system = systems[own]
             forcing = dict(self.forcing) | {k: v for k, v in values.items() if k in FORCING}
-            moves = getattr(system, "depends_on_Omega", None)
-            key = (own, forcing["Omega"] if moves or moves is None else None)
+            moves, Omega = getattr(system, "depends_on_Omega", None), forcing["Omega"]
+            key: tuple[float, ...] = own
+            if moves and ratio in own_names:
+                key = tuple(
+                    Omega / v if n == ratio else v for n, v in values.items() if n in own_names
+                )
+            elif moves:
+                key = (*own, Omega)
             known = made.get(key) if moves is not None else None
             try:
                 if known is not None:  # its matrices, and how large their elements are
-                    one = known[0].forced(**forcing)
+                    omega_L = known[0].omega_L * (Omega / known[0].Omega if moves else 1.0)
+                    one = known[0].forced(**forcing, omega_L=omega_L)
                     found.append(one if slow_enough(one, known[1]) else None)
                     continue
                 new = self.reading.form(make(system, **forcing), forcing["eta"])
@@ -150,57 +156,6 @@ class Scenario:
         if self.reading.general and own is not None and len(own) != count:
             return tuple(str(k) for k in range(1, count + 1))
         return frequency_names(self.system, count)
-
-    def singular(self, low: Values, high: Values) -> str | None:
-        """The parameter to cut by where a pole is in a box of parameters, or close by; or None.
-
-        The system says where its poles are in Omega. The box counts with a margin of
-        `POLE_CLEARANCE` on each side, so that a series over it has none at its door.
-        """
-        if not hasattr(self.system, "singular_Omega"):
-            return None
-        ends = {
-            name: self._widened(name, low[name], high[name]) for name in low if name not in FORCING
-        }
-        if "Omega" in low:
-            Omega = self._widened("Omega", low["Omega"], high["Omega"])
-        else:
-            fixed = self.forcing["Omega"]
-            Omega = fixed * (1.0 - SAME_OMEGA), fixed * (1.0 + SAME_OMEGA)
-        corners = [
-            varied(self.system, dict(zip(ends, corner, strict=True)))
-            for corner in product(*ends.values())
-        ]
-        # a pole that is on another side of the box at another corner passes through
-        below = {len(singular_Omega(system, 0.0, Omega[0])) for system in corners}
-        if len(below) == 1 and not any(len(singular_Omega(s, *Omega)) for s in corners):
-            return None
-        return self._across(low, high)
-
-    def _widened(self, name: str, low: float, high: float) -> tuple[float, float]:
-        margin = POLE_CLEARANCE * (high - low)
-        if name == "Omega":
-            return max(low - margin, 0.5 * low), high + margin
-        own = next(p for p in self.system.parameters if p.name == name)
-        return (
-            low - margin if low - margin > own.low else low,
-            high + margin if high + margin < own.high else high,
-        )
-
-    def _across(self, low: Values, high: Values) -> str:
-        """The parameter along which Omega and the poles move most against each other."""
-        middle = {name: 0.5 * (low[name] + high[name]) for name in low}
-        Omega = middle.get("Omega", self.forcing.get("Omega", 1.0))
-        moved = {"Omega": high["Omega"] - low["Omega"]} if "Omega" in low else {}
-        for name in (n for n in low if n not in FORCING):
-            own = {k: v for k, v in middle.items() if k not in FORCING}
-            first, last = (
-                singular_Omega(varied(self.system, own | {name: end}), 0.0, 2.0 * Omega)
-                for end in (low[name], high[name])
-            )
-            if len(first) == len(last):
-                moved[name] = float(np.max(np.abs(last - first), initial=0.0))
-        return max(moved, key=lambda name: moved[name]) if moved else next(iter(low))
 
 
 def scenario(
@@ -230,7 +185,7 @@ def scenario(
             "eta), as hill.System says"
         )
     own = {p.name: p.smooth for p in system.parameters}
-    drawn = tuple(_drawn(axis, own) for axis in axes)
+    drawn = _drawn(axes, own)
     if isinstance(system, Vehicle) and "eta" not in [axis.name for axis in drawn]:
         system, in_all = damping_as_forcing(system, (forcing or {}).get("eta", 0.0))
         forcing = {**(forcing or {}), "eta": in_all}
@@ -264,22 +219,18 @@ def _equations(
     return found
 
 
-def singular_across(of: Scenario, low: Float, high: Float) -> int | None:
-    """The axis to cut by where a rectangle of smooth coordinates has a pole, or one is near."""
-    ends = [
-        sorted((float(a.from_smooth(x)), float(a.from_smooth(y))))
-        for a, x, y in zip(of.axes, low, high, strict=True)
-    ]
-    found = of.singular(
-        dict(zip(of.names, (e[0] for e in ends), strict=True)),
-        dict(zip(of.names, (e[1] for e in ends), strict=True)),
-    )
-    return None if found is None else of.names.index(found)
-
-
-def _drawn(axis: Axis | tuple[str, float, float, int], smooth: Mapping[str, str]) -> Axis:
-    made = axis if isinstance(axis, Axis) else Axis(*axis)
-    return replace(made, smooth=smooth.get(made.name, made.smooth))
+def _drawn(
+    axes: Sequence[Axis | tuple[str, float, float, int]], smooth: Mapping[str, str]
+) -> tuple[Axis, ...]:
+    """Axes in the variables that the system says; the first ratio is one, others reciprocals."""
+    found: list[Axis] = []
+    for axis in axes:
+        made = axis if isinstance(axis, Axis) else Axis(*axis)
+        own = smooth.get(made.name, made.smooth)
+        if own == "ratio" and any(other.smooth == "ratio" for other in found):
+            own = "reciprocal"
+        found.append(replace(made, smooth=own))
+    return tuple(found)
 
 
 def _check_names(names: list[str], own: list[str], forcing: Values) -> None:

@@ -14,11 +14,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from compare.charts import chebyshev
+from compare.charts.cuts import Cut, Uncovered
+from compare.charts.known import Known, Sampler
 
 Float = NDArray[np.floating[Any]]
-
-Sampler = Callable[[Float], tuple[Float, Float]]
-"""Smooth coordinates (k, axes) to coefficients of P (k, n + 1), highest first, and their errors."""
 
 FIRST_POINTS, MAX_POINTS = 9, 129
 """Points an axis at first, and at most before the rectangle is cut; 2^k + 1, so that they nest."""
@@ -29,9 +28,6 @@ RESOLVED = 1e-2
 MAX_RANGE = 1e6
 """A series' error is one for the whole piece: where P's largest coefficient varies by more than
 this, it would say nothing where P is small."""
-
-MAX_CUTS = 7
-"""Cuts of one axis; a piece is then 1/128 of the chart."""
 
 # Values at random points miss by no more than this many times the last coefficients kept, which
 # bound a geometric series' remainder where its ratio is below 3/4; tests/test_chart.py measures it.
@@ -92,9 +88,10 @@ def fit(
     high: Float,
     tolerance: float,
     wanted: Callable[[Float, Float], float],
-    singular: Callable[[Float, Float], int | None] = lambda low, high: None,
+    singular: Callable[[Float, Float], Cut | None] = lambda low, high: None,
     covered: Callable[[float], Any] | None = None,
     points: float = np.inf,
+    kept: Callable[[Float, Float], tuple[Float, Float] | None] = lambda low, high: (low, high),
 ) -> Surface:
     """Cover a rectangle with series whose error is below `tolerance` times the largest |P|.
 
@@ -110,47 +107,49 @@ def fit(
         Corners of a rectangle to the number of points that are wanted there: it is not sampled at
         more nodes than that.
     singular : callable, optional
-        Corners of a rectangle to the axis to cut by, where P has a pole in it or next to it: it
+        Corners of a rectangle to how it is to be cut, where P has a pole in it or next to it: it
         gets no series, be the residue as small as it may.
     covered : callable, optional
         Called with the share of the rectangle that is done with, after each piece.
     points : int, optional
         Of the chart. Where P was too steep wherever a series was tried, as under growth by powers
         of ten, no more nodes than that are spent on finding another one.
+    kept : callable, optional
+        Corners of a rectangle to those of what is to be covered in it; None where that is nothing.
     """
-    known = _Known(sample, np.asarray(low, float), np.asarray(high, float))
+    known = Known(sample, np.asarray(low, float), np.asarray(high, float))
     pieces: list[Piece] = []
-    pending = [(np.asarray(low, float), np.asarray(high, float), (0,) * len(low), "")]
-    share, whole, steep = 0.0, float(np.prod(known.high - known.low)), True
+    first = Uncovered(known.low, known.high, (0,) * len(low))
+    pending, share, steep = [first], 0.0, True
     while pending:
-        a, b, cuts, before = pending.pop()
-        most = wanted(a, b)
-        across = singular(a, b)
-        found: Piece | _Cut
-        if steep and len(known.values) > points:
-            found = Piece(a, b, None, np.inf, why=STEEP)
-        elif across is None:
-            found = _piece(known, a, b, tolerance, most)
-        elif most < FIRST_POINTS ** len(a):
-            found = Piece(a, b, None, np.inf, why=POLE)
-        else:
-            found = _Cut(across, POLE)
-        if isinstance(found, _Cut) and cuts[found.axis] >= MAX_CUTS:
-            found = Piece(a, b, None, np.inf, why=found.why)
-        why = before if isinstance(found, Piece) and found.why == SLOW else found.why
-        steep = steep and why == STEEP
-        if isinstance(found, Piece):
+        at = pending.pop()
+        corners = kept(at.low, at.high)
+        found: Piece | Cut | None = None
+        if corners is not None:
+            a, b = corners
+            most = wanted(a, b)
+            across = singular(a, b)
+            if steep and len(known.values) > points:
+                found = Piece(a, b, None, np.inf, why=STEEP)
+            elif across is None:
+                found = _piece(known, a, b, tolerance, most)
+            elif most < FIRST_POINTS ** len(a):
+                found = Piece(a, b, None, np.inf, why=POLE)
+            else:
+                found = across
+            if isinstance(found, Cut) and not at.may_be(found):
+                found = Piece(a, b, None, np.inf, why=found.why)
+            why = at.why if isinstance(found, Piece) and found.why == SLOW else found.why
+            steep = steep and why == STEEP
+        if isinstance(found, Cut):
+            pending += at.cut(a, b, found)
+            continue
+        if found is not None:
             # what the larger rectangle was cut for says more than that the rest is small
-            pieces.append(replace(found, why=before) if found.why == SLOW and before else found)
-            share += float(np.prod(b - a)) / whole
-            if covered is not None:
-                covered(share)
-        else:
-            k = found.axis
-            deeper = tuple(c + (j == k) for j, c in enumerate(cuts))
-            left, right = b.copy(), a.copy()
-            left[k] = right[k] = 0.5 * (a[k] + b[k])
-            pending += [(right, b, deeper, found.why), (a, left, deeper, found.why)]
+            pieces.append(replace(found, why=at.why) if found.why == SLOW and at.why else found)
+        share += at.share
+        if covered is not None:
+            covered(share)
     return Surface(tuple(pieces), len(known.values))
 
 
@@ -169,27 +168,19 @@ def evaluate(fitted: Surface, smooth: Float) -> tuple[Float, Float]:
     for piece in fitted.pieces:
         inside = np.all((smooth >= piece.low) & (smooth <= piece.high), axis=1)
         if piece.series is not None and np.any(inside):
-            local = to_local(piece, smooth[inside])
+            local = to_local(smooth[inside], piece.low, piece.high)
             P[0, inside] = 1.0
             P[1:, inside] = chebyshev.at_points(piece.series, tuple(local.T))
             error[inside] = piece.error
     return P, error
 
 
-def to_local(piece: Piece, smooth: Float) -> Float:
-    """Smooth coordinates (..., axes) as coordinates of the piece, in [-1, 1]."""
-    return np.clip((2.0 * smooth - piece.low - piece.high) / (piece.high - piece.low), -1.0, 1.0)
+def to_local(smooth: Float, low: Any, high: Any) -> Float:
+    """Smooth coordinates as coordinates of a piece from `low` to `high`, in [-1, 1]."""
+    return np.asarray(np.clip((2.0 * smooth - low - high) / (high - low), -1.0, 1.0))
 
 
-@dataclass(frozen=True)
-class _Cut:
-    """A rectangle is to be cut across this axis, and why it has no series as it is."""
-
-    axis: int
-    why: str
-
-
-def _piece(known: "_Known", a: Float, b: Float, tolerance: float, most: float) -> "Piece | _Cut":
+def _piece(known: Known, a: Float, b: Float, tolerance: float, most: float) -> "Piece | Cut":
     """A series that has decayed, or the axis along which it has not.
 
     Without a series where that would take more than `most` nodes.
@@ -203,10 +194,10 @@ def _piece(known: "_Known", a: Float, b: Float, tolerance: float, most: float) -
         values, errors = known.on(grid)
         if not np.all(np.isfinite(values)):
             beyond = np.any(np.isinf(values))
-            return _Cut(_across_pole(values), STEEP if beyond else POLE)
+            return Cut(_across_pole(values), STEEP if beyond else POLE)
         sizes = np.maximum(np.max(np.abs(values), axis=0), 1.0)
         if sizes.max() > MAX_RANGE * sizes.min():
-            return _Cut(_steepest(sizes), STEEP)
+            return Cut(_steepest(sizes), STEEP)
         series = chebyshev.coefficients(values, over)
         size = max(1.0, float(np.max(np.abs(values))))
         tails = np.array([chebyshev.decay(series, axis) for axis in over])
@@ -223,7 +214,7 @@ def _piece(known: "_Known", a: Float, b: Float, tolerance: float, most: float) -
         shares = tails / size
         for k in np.flatnonzero(short):
             if _expected(counts[k], shares[k], before[k], allowed / size) > MAX_POINTS:
-                return _Cut(int(k), SLOW)
+                return Cut(int(k), SLOW)
             before[k] = (counts[k], float(shares[k]))
         counts = [
             2 * n - 1 if s and n < MAX_POINTS else n for n, s in zip(counts, short, strict=True)
@@ -271,27 +262,3 @@ def _trim(series: Float, small: float) -> Float:
 
 def _nodes(a: float, b: float, n: int) -> Float:
     return 0.5 * (a + b) + 0.5 * (b - a) * chebyshev.lobatto(n)
-
-
-class _Known:
-    """Evaluations so far, so that nested points are not computed twice."""
-
-    def __init__(self, sample: Sampler, low: Float, high: Float) -> None:
-        self.sample, self.low, self.high = sample, low, high
-        self.values: dict[bytes, tuple[Float, float]] = {}
-
-    def on(self, grid: list[Float]) -> tuple[Float, Float]:
-        """Coefficients of P below the leading one, on a grid: (n, *grid), and their errors."""
-        points = np.stack([m.ravel() for m in np.meshgrid(*grid, indexing="ij")], axis=1)
-        # nested points come out of different formulas: equal to twelve digits is the same point
-        share = np.round((points - self.low) / (self.high - self.low), 12) + 0.0  # no -0
-        keys = [line.tobytes() for line in share]
-        new = [i for i, key in enumerate(keys) if key not in self.values]
-        if new:
-            found, errors = self.sample(points[new])
-            for i, value, error in zip(new, found, errors, strict=True):
-                self.values[keys[i]] = (value[1:], float(error))
-        table = np.array([self.values[key][0] for key in keys])
-        bounds = np.array([self.values[key][1] for key in keys])
-        shape = [len(x) for x in grid]
-        return table.T.reshape(-1, *shape), bounds

@@ -83,8 +83,8 @@ def _function(chart: Chart, kind: str) -> Callable[[Float], Float]:
 
     def f(at: Float) -> Float:
         named = _named(chart, at)
-        smooth = [axis.to_smooth(named[axis.name]) for axis in chart.axes]
-        P, _ = evaluate(chart.surface, np.column_stack(smooth))
+        points = np.column_stack([named[axis.name] for axis in chart.axes])
+        P, _ = evaluate(chart.surface, chart.scenario.smooth.to_smooth(points))
         there = np.isfinite(P[0])
         given = dict(chart.scenario.forcing) | named
         Omega, eta = (np.broadcast_to(given.get(n, 0.0), len(at))[there] for n in ("Omega", "eta"))

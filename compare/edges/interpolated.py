@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from functools import lru_cache, partial
+from functools import cached_property, lru_cache, partial
 from itertools import pairwise
 from typing import Any
 
@@ -10,10 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from compare.charts import chebyshev
-from compare.charts.axis import Axis, from_smooth
+from compare.charts.axis import Axis
+from compare.charts.poles import singular_across
 from compare.charts.result import Chart, directly
-from compare.charts.scenario import Equation, singular_across
-from compare.charts.surface import Piece, fit
+from compare.charts.scenario import Equation
+from compare.charts.smooth import Smooth
+from compare.charts.surface import Piece, fit, to_local
 from compare.edges.field import PolynomialField
 from compare.stability.indicators import BESIDE_POLE, TAIL, NotSmooth
 from compare.stability.reading import Reading
@@ -31,6 +33,9 @@ TOLERANCE = 1e-11
 
 MAX_BESIDE = 5000
 """Nodes of one of them; a chart as wide as the report's takes 1105."""
+
+LEAST_BESIDE = 1.0 / 128.0
+"""Share of what lies beside the chart that is cut no further: a line is evaluated there."""
 
 MAX_ALONE = 65
 """Points of one line that are evaluated without a series: an interpolant of degree 64."""
@@ -86,22 +91,22 @@ class InterpolatedField(PolynomialField):
     def known(self, Omega: Float, y: float) -> tuple[Float, Float]:
         """The same with the errors, (k,)."""
         Omega = np.atleast_1d(np.asarray(Omega, float))
-        _, other = axes_of(self.chart)
         i = self.chart.scenario.names.index("Omega")
-        u, v = 1.0 / Omega, float(other.to_smooth(np.array(y)))
-        P = np.ones((len(u), self.chart.scenario.coordinates + 1))
-        errors = np.full(len(u), np.nan)
-        for k, piece in enumerate(self.pieces):
-            inside = (u >= piece.low[i]) & (u <= piece.high[i])
-            if piece.series is None or not piece.low[1 - i] <= v <= piece.high[1 - i]:
-                continue
-            if np.any(inside):
+        smooth = self._smooth.to_smooth(self._points(Omega, y))
+        P = np.ones((len(Omega), self.chart.scenario.coordinates + 1))
+        errors = np.full(len(Omega), np.nan)
+        there, v = self._of_pieces(smooth), float(smooth[0, 1 - i])
+        for k in map(int, np.flatnonzero(np.any(there, axis=1))):
+            piece, inside = self.pieces[k], there[k]
+            assert piece.series is not None
+            local = to_local(smooth[inside], piece.low, piece.high)
+            if self._smooth.skew:
+                own = chebyshev.at_points(piece.series, tuple(local.T))
+            else:
                 section = self._section(k, v)
-                local = (2.0 * u[inside] - piece.low[i] - piece.high[i]) / (
-                    piece.high[i] - piece.low[i]
-                )
-                P[inside, 1:] = (section @ chebyshev.basis(local, section.shape[1]).T).T
-                errors[inside] = piece.error
+                own = section @ chebyshev.basis(local[:, i], section.shape[1]).T
+            P[inside, 1:] = own.T
+            errors[inside] = piece.error
         alone = np.isnan(errors)
         if np.any(alone):
             P[alone], errors[alone] = self._directly(Omega[alone], y)
@@ -110,14 +115,34 @@ class InterpolatedField(PolynomialField):
     def _directly(self, Omega: Float, y: float) -> tuple[Float, Float]:
         if len(Omega) > MAX_ALONE:
             raise NotSmooth("P has no series here, and is not smooth enough to do with few points")
-        ends = {"Omega": Omega, axes_of(self.chart)[1].name: np.full(len(Omega), y)}
-        points = np.column_stack([ends[name] for name in self.chart.scenario.names])
-        P, errors = directly(self.chart, points, _route_beside(self.chart))
+        P, errors = directly(self.chart, self._points(Omega, y), _route_beside(self.chart))
         if np.any(np.isnan(P)):
             raise NotSmooth("a pole is on the line", BESIDE_POLE)
         if not np.all(np.isfinite(P)):
             raise NotSmooth("P is beyond a float")
         return P, errors
+
+    def _points(self, Omega: Float, y: float) -> Float:
+        """On a line of constant y, as the chart's axes have them."""
+        other = axes_of(self.chart)[1].name
+        ends = {"Omega": Omega, other: np.full(len(Omega), y)}
+        return np.column_stack([ends[name] for name in self.chart.scenario.names])
+
+    def _of_pieces(self, smooth: Float) -> NDArray[np.bool_]:
+        """Which pieces have a series at which points, (pieces, k)."""
+        low, high = self._corners
+        return np.asarray(np.all((smooth >= low[:, None]) & (smooth <= high[:, None]), axis=-1))
+
+    @cached_property
+    def _corners(self) -> tuple[Float, Float]:
+        """Of the pieces; of those without a series, such that nothing is within."""
+        there = np.array([[piece.series is not None] for piece in self.pieces])
+        low, high = (np.array([getattr(p, end) for p in self.pieces]) for end in ("low", "high"))
+        return np.where(there, low, np.inf), high
+
+    @cached_property
+    def _smooth(self) -> Smooth:
+        return self.chart.scenario.smooth
 
     def P(self, Omega: float, y: float) -> Float:
         """Coefficients of P at a point."""
@@ -199,25 +224,31 @@ def _beside(chart: Chart, low: float, high: float) -> tuple[Piece, ...]:
 
     Each is as wide as the chart itself in 1/Omega, at most, and so takes no more nodes.
     """
-    axes = chart.axes
-    k = chart.scenario.names.index("Omega")
-    first, last = np.array([axis.span for axis in axes]).T
+    smooth, k = chart.scenario.smooth, chart.scenario.names.index("Omega")
+    first, last = smooth.span
+    ends = [axis.reach for axis in chart.axes]
     found: list[Piece] = []
     route = _route_beside(chart)
     for start, end in ((1.0 / high if high else np.inf, first[k]), (last[k], 1.0 / low)):
         if start < end:
             count = int(np.ceil((end - start) / (last[k] - first[k])))
             for a, b in pairwise(np.linspace(start, end, count + 1)):
-                corners = first.copy(), last.copy()
-                corners[0][k], corners[1][k] = a, b
+                ends[k] = 1.0 / b, 1.0 / a
+                corners = smooth.rectangle(ends)
                 found += fit(
-                    lambda smooth: directly(chart, from_smooth(axes, smooth), route),
+                    lambda at: directly(chart, smooth.from_smooth(at), route),
                     *corners,
                     TOLERANCE,
-                    lambda low, high: MAX_BESIDE,
+                    partial(_worth, corners[1] - corners[0]),
                     partial(singular_across, chart.scenario),
+                    kept=smooth.kept,
                 ).pieces
     return tuple(found)
+
+
+def _worth(whole: Float, low: Float, high: Float) -> float:
+    """Nodes that a rectangle beside the chart is worth: none next to a pole."""
+    return MAX_BESIDE if np.prod((high - low) / whole) >= LEAST_BESIDE else 0.0
 
 
 def _section(pieces: tuple[Piece, ...], along_y: int, k: int, v: float) -> Float:

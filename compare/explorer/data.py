@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from compare.charts.axis import Axis
-from compare.charts.grid import Cells
 from compare.charts.result import Chart
 from compare.charts.scenario import Scenario
 from compare.charts.surface import Piece
@@ -73,8 +72,8 @@ def data_of(chart: Chart, tongues: Sequence[Tongue] = ()) -> dict[str, Any]:
         "degree": scenario.coordinates,
         "axes": [_axis(axis, scenario) for axis in chart.axes],
         "forcing": dict(scenario.forcing),
-        "pieces": [_piece(p) for p in chart.surface.pieces if _is_seen(p, chart.axes)],
-        "alone": [_points(cells) for cells in chart.alone],
+        "pieces": [_piece(p) for p in _seen(chart)],
+        "alone": _alone(chart),
         "colours": _colours(chart),
         "frequencies": frequencies,
         "resonances": _resonances(scenario, frequencies["count"]) if frequencies else [],
@@ -114,11 +113,14 @@ def _axis(axis: Axis, scenario: Scenario) -> dict[str, Any]:
     }
 
 
-def _is_seen(piece: Piece, axes: Sequence[Axis]) -> bool:
-    """Whether a piece has a series and reaches into what is drawn."""
-    drawn = np.array([axis.drawn for axis in axes])
-    inside = np.all((piece.low <= drawn[:, 1]) & (piece.high >= drawn[:, 0]))
-    return piece.series is not None and bool(inside)
+def _seen(chart: Chart) -> list[Piece]:
+    """The pieces that have a series and reach into what is drawn."""
+    low, high = chart.scenario.smooth.rectangle([(axis.low, axis.high) for axis in chart.axes])
+    return [
+        piece
+        for piece in chart.surface.pieces
+        if piece.series is not None and np.all((piece.low <= high) & (piece.high >= low))
+    ]
 
 
 def _piece(piece: Piece) -> dict[str, Any]:
@@ -132,11 +134,16 @@ def _piece(piece: Piece) -> dict[str, Any]:
     }
 
 
-def _points(cells: Cells) -> dict[str, Any]:
+def _alone(chart: Chart) -> dict[str, Any]:
+    """The points without a series, by their places on the grid, the last axis running fastest."""
+    places = np.arange(chart.T.size).reshape([axis.count for axis in chart.axes])
+    at = [places[cells.where].ravel() for cells in chart.alone]
+    P = [cells.P for cells in chart.alone] or [np.empty((chart.scenario.coordinates + 1, 0))]
+    errors = [cells.error for cells in chart.alone]
     return {
-        "chosen": [index.tolist() for index in cells.chosen],
-        "P": _packed(cells.P),
-        "error": _packed(cells.error),
+        "at": _packed(np.concatenate([*at, np.empty(0)])),
+        "P": _packed(np.concatenate(P, axis=1)),
+        "error": _packed(np.concatenate([*errors, np.empty(0)])),
     }
 
 

@@ -428,12 +428,15 @@ function basis(x, count, into) {
 function chartOf(data) {
     const axes = data.axes, degree = data.degree, reading = data.variable === "z" ? inZ : inMu;
     const pieces = data.pieces.map((piece) => ({...piece, series: floats(piece.series)}));
-    const alone = data.alone.map((part) => ({
-        chosen: part.chosen,
-        P: floats(part.P),
-        error: floats(part.error),
-    }));
-    const smooth = (k, value) => (axes[k].smooth === "reciprocal" ? 1 / value : value);
+    const alone = {P: floats(data.alone.P), error: floats(data.alone.error), at: new Map()};
+    floats(data.alone.at).forEach((place, i) => alone.at.set(place, i));
+    const forcing = axes.findIndex((axis) => axis.name === "Omega");
+    // the variable of one axis then moves with another's
+    const skew = forcing >= 0 && axes.some((axis) => axis.smooth === "ratio");
+    const smooth = (k, value, Omega = data.forcing.Omega) => {
+        if (axes[k].smooth === "value") return value;
+        return (axes[k].smooth === "ratio" ? Omega : 1) / value;
+    };
     const p = new Float64Array(degree + 1);
     const re = new Float64Array(degree), im = new Float64Array(degree);
     p[0] = 1;
@@ -448,9 +451,10 @@ function chartOf(data) {
         return low + index * (high - low) / (count - 1);
     };
 
-    /** The series of the pieces with all axes but the first two at these values. */
+    /** The series of the pieces with all axes but the first two at these values; none of a skew one. */
     function section(further) {
         const found = [];
+        if (skew) return {further, pieces: found};
         for (const piece of pieces) {
             const s = further.map((value, k) => smooth(k + 2, value));
             if (!s.every((x, k) => within(piece, k + 2, x))) continue;
@@ -471,35 +475,24 @@ function chartOf(data) {
         return {further, pieces: found};
     }
 
-    /** The place in a list of ascending indices that is nearest to a fractional one. */
-    function nearest(indices, wanted) {
-        let low = 0, high = indices.length - 1;
-        while (high - low > 1) {
-            const middle = (low + high) >> 1;
-            if (indices[middle] > wanted) high = middle;
-            else low = middle;
-        }
-        return wanted - indices[low] <= indices[high] - wanted ? low : high;
-    }
-
     /** Of the chart's points that have no series the one next to these values: P into p. */
     function evaluated(values) {
         const wanted = values.map((value, k) => {
             const {low, high, count} = axes[k];
-            return (value - low) / (high - low) * (count - 1);
+            return Math.min(Math.max((value - low) / (high - low) * (count - 1), 0), count - 1);
         });
-        let best = null, least = 1; // no more than a step of the chart's grid away
-        for (const part of alone) {
-            const places = part.chosen.map((indices, k) => nearest(indices, wanted[k]));
-            const away = places.map((i, k) => Math.abs(part.chosen[k][i] - wanted[k]));
-            const distance = Math.max(...away);
-            if (distance <= least) [best, least] = [{part, places}, distance];
+        // of the corners of the cell of the chart's grid that they are in
+        let best = null, least = Infinity;
+        for (let corner = 0; corner < 1 << axes.length; corner++) {
+            const places = wanted.map((w, k) => (corner >> k & 1 ? Math.ceil(w) : Math.floor(w)));
+            const at = places.reduce((sum, i, k) => sum * axes[k].count + i, 0);
+            const distance = Math.max(...places.map((i, k) => Math.abs(i - wanted[k])));
+            if (alone.at.has(at) && distance < least) [best, least] = [{at, places}, distance];
         }
         if (best === null) return null;
-        const {part, places} = best;
-        const at = places.reduce((sum, i, k) => sum * part.chosen[k].length + i, 0);
-        for (let k = 0; k <= degree; k++) p[k] = part.P[k * part.error.length + at];
-        return {error: part.error[at], values: places.map((i, k) => pointAt(k, part.chosen[k][i]))};
+        const i = alone.at.get(best.at);
+        for (let k = 0; k <= degree; k++) p[k] = alone.P[k * alone.error.length + i];
+        return {error: alone.error[i], values: best.places.map((place, k) => pointAt(k, place))};
     }
 
     function Omega_and_eta(values) {
@@ -534,6 +527,17 @@ function chartOf(data) {
                 state[at] = UNDECIDED;
             }
         };
+        const each = (what) => {
+            for (let j = 0; j < ys.length; j++) {
+                for (let i = 0; i < xs.length; i++) what(i, j, [xs[i], ys[j], ...cut.further]);
+            }
+        };
+        if (skew) {
+            each((i, j, values) => {
+                const error = summed(values);
+                if (error !== null) put(i, j, error);
+            });
+        }
         for (const piece of cut.pieces) {
             const [n, kx, ky] = piece.shape;
             const own = (k, points) => {
@@ -566,21 +570,18 @@ function chartOf(data) {
                 }
             }
         }
-        if (alone.length) {
-            for (let j = 0; j < ys.length; j++) {
-                for (let i = 0; i < xs.length; i++) {
-                    if (known[j * xs.length + i]) continue;
-                    const found = evaluated([xs[i], ys[j], ...cut.further]);
-                    if (found !== null) put(i, j, found.error);
-                }
-            }
+        if (alone.at.size) {
+            each((i, j, values) => {
+                const found = known[j * xs.length + i] ? null : evaluated(values);
+                if (found !== null) put(i, j, found.error);
+            });
         }
         return {T, state};
     }
 
     /** P at a point from its series: into p; its error, or null where there is none. */
     function summed(values) {
-        const s = values.map((value, k) => smooth(k, value));
+        const s = values.map((value, k) => smooth(k, value, values[forcing]));
         let error = null;
         for (const piece of pieces) {
             if (!s.every((x, k) => within(piece, k, x))) continue;

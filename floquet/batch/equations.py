@@ -17,6 +17,8 @@ from floquet.batch import c_kernel
 from floquet.batch.balance import balanced
 from floquet.batch.general import general_polynomials
 from floquet.batch.numpy_kernel import Found, March, Points, by_numpy
+from floquet.batch.whole_period import by_whole_period
+from floquet.many import MAX_FEW
 from floquet.period import MAX_TERM_GROWTH, monodromy
 from hill import HillEquation, PeriodicEquation
 from hill.precision import poor_P
@@ -45,6 +47,9 @@ ULPS, SWELL, GROWN, DATA_ULPS, P_ULPS = 8.0, 4.0, 1.2, 3.0, 4.0
 # Relative bound above which `monodromy` is asked, whose two runs know better: thirty times the
 # largest on the report's chart.
 REFINE_ABOVE = 1e-10
+
+# So many of them go through the whole period side by side: as long as two or three alone.
+MIN_WHOLE = 4
 
 
 @dataclass(frozen=True, eq=False)
@@ -211,13 +216,13 @@ def _many(e: HillEquation, forcing: _Forcing, march: March) -> tuple[Float, Floa
     ratio = e.ratio if e.H else 0
     phases = (1, *(s * ratio for s in range(1, len(e.H) + 1)))
     matrices = np.array([e.F, e.G, *e.H])
-    return _solve(matrices, forcing, phases, march, lambda i: _alone(e, forcing[i]))
+    return _solve(matrices, forcing, phases, march, lambda i: _under(e, forcing[i]))
 
 
 def _unlike(equations: Sequence[HillEquation]) -> tuple[Float, Float]:
     """P and its error of equations each with F and G of its own."""
     matrices = np.array([[e.F for e in equations], [e.G for e in equations]])
-    return _solve(matrices, _forcing(equations), (1,), by_numpy, lambda i: _bound(equations[i]))
+    return _solve(matrices, _forcing(equations), (1,), by_numpy, lambda i: equations[i])
 
 
 def _solve(
@@ -225,7 +230,7 @@ def _solve(
     forcing: _Forcing,
     phases: tuple[int, ...],
     march: March,
-    alone: Callable[[int], tuple[Float, float]],
+    equation: Callable[[int], HillEquation],
 ) -> tuple[Float, Float]:
     """P and its error; neighbours in Omega go together, they need like steps."""
     ordered = np.argsort(forcing.Omega, kind="stable")
@@ -247,8 +252,15 @@ def _solve(
     errors[ordered] = EPS * _ulps(found, data, size)
     # as in `monodromy`: much growth makes the half period's inverse a poor one
     poor = ~((found.growth < MAX_TERM_GROWTH) & (errors[ordered] <= REFINE_ABOVE * size))
-    for i in map(int, ordered[poor]):
-        P[i], errors[i] = alone(i)
+    asked = np.flatnonzero(poor)
+    if len(asked) >= MIN_WHOLE and len(phases) == 1 and P.shape[1] - 1 <= MAX_FEW:
+        there = ordered[asked]
+        P[there], errors[there] = by_whole_period(
+            points.own(asked), lambda k: equation(int(there[k]))
+        )
+        return P, errors
+    for i in map(int, ordered[asked]):
+        P[i], errors[i] = _bound(equation(i))
     return P, errors
 
 
@@ -261,11 +273,10 @@ def _ulps(found: Found, data: Float, size: Float) -> Float:
         return ULPS * summed + (DATA_ULPS * data + P_ULPS) * size
 
 
-def _alone(e: HillEquation, forcing: _Forcing) -> tuple[Float, float]:
+def _under(e: HillEquation, forcing: _Forcing) -> HillEquation:
     Omega, gamma, eta = float(forcing.Omega), float(forcing.gamma), float(forcing.eta)
     omega_L = e.ratio * Omega if e.H else e.omega_L
-    own = HillEquation(F=e.F, G=e.G, gamma=gamma, Omega=Omega, eta=eta, H=e.H, omega_L=omega_L)
-    return _bound(own)
+    return HillEquation(F=e.F, G=e.G, gamma=gamma, Omega=Omega, eta=eta, H=e.H, omega_L=omega_L)
 
 
 def _bound(equation: HillEquation) -> tuple[Float, float]:

@@ -12,6 +12,7 @@ from math import ceil, factorial
 from typing import Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
 from floquet.arrays import Float
 from floquet.charpoly import characteristic_polynomials
@@ -56,6 +57,14 @@ class Points:
         matrices = self.matrices if shared else self.matrices[:, part]
         return Points(matrices, self.weights[:, part], self.shift[part], self.phases)
 
+    def own(self, index: NDArray[np.int_]) -> "Points":
+        """Some of them, with matrices of their own."""
+        shared = self.matrices.ndim == 3
+        matrices = self.matrices[:, None] if shared else self.matrices[:, index]
+        shape = (len(matrices), len(index), *matrices.shape[2:])
+        matrices = np.broadcast_to(matrices, shape)
+        return Points(matrices, self.weights[:, index], self.shift[index], self.phases)
+
 
 @dataclass(frozen=True, eq=False)
 class Found:
@@ -94,15 +103,15 @@ def by_numpy(points: Points) -> Found:
     found = []
     for start in range(0, points.weights.shape[1], CHUNK):
         chunk = points[start : start + CHUNK]
-        worst, nothing = _terms(chunk), np.zeros(points.matrices.shape[-2:])
+        worst, nothing = terms_of(chunk), np.zeros(points.matrices.shape[-2:])
         steps = ceil(np.pi / longest_step(worst, nothing, ORDER, TOLERANCE))
-        A, scale, growth = _folded(*_fundamental(chunk, steps))
+        A, scale, growth = _folded(*fundamental(chunk, steps))
         fastest = np.full(len(A), fastest_rate(worst, nothing))
         found.append((*characteristic_polynomials(A, scale), growth, fastest))
     return Found(*(np.concatenate(values) for values in zip(*found, strict=True)))
 
 
-def _terms(points: Points) -> list[Term]:
+def terms_of(points: Points) -> list[Term]:
     """Moduli of the stiffness matrices, the largest of each, with their cosines' frequencies."""
     weights, matrices = np.abs(points.weights), np.abs(points.matrices)
     if matrices.ndim == 4:
@@ -113,14 +122,14 @@ def _terms(points: Points) -> list[Term]:
     return list(zip(matrices, (0.0, *map(float, points.phases)), strict=True))
 
 
-def _fundamental(points: Points, steps: int) -> tuple[Float, Float]:
-    """Fundamental matrices of (u, du/dtheta) at theta = pi, shape (k, 2n, 2n).
+def fundamental(points: Points, steps: int, end: float = np.pi) -> tuple[Float, Float]:
+    """Fundamental matrices of (u, du/dtheta) at theta = `end`, shape (k, 2n, 2n).
 
     And the largest that each element has been at the steps' ends: rounding there is of that size,
     whatever is left of it at the end.
     """
     n, k = points.matrices.shape[-1], points.weights.shape[1]
-    h = np.pi / steps
+    h = end / steps
     shared = points.matrices.ndim == 3
     # side by side for one product, or with the points last, as everything else is
     matrices = np.hstack(list(points.matrices)) if shared else np.moveaxis(points.matrices, 1, -1)
