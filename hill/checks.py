@@ -11,6 +11,8 @@ from numpy.typing import ArrayLike, NDArray
 
 def number(name: str, value: Any) -> float:
     """Return `value` as a float, or raise `ValueError` if it is not one finite real number."""
+    if type(value) is float and math.isfinite(value):  # nearly all are; a chart asks ten thousand
+        return value
     if isinstance(value, np.ndarray) and value.ndim == 0:
         value = value.item()
     if isinstance(value, (bool, np.bool_)) or not isinstance(value, Real):
