@@ -42,9 +42,10 @@ def figures(results: dict[str, Any]) -> dict[str, bytes]:
     except ImportError:
         return {}
     rc: Any = STYLE
+    vectors = results["machine"]["vectors"]
     with matplotlib.rc_context(rc):
         return {
-            f"performance-{name}.svg": _drawn(name, results[name]["curves"])
+            f"performance-{vectors}-{name}.svg": _drawn(name, results[name]["curves"])
             for name in LABELS
             if name in results and shown(name, results[name]["curves"])
         }

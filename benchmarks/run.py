@@ -3,18 +3,17 @@
 import argparse
 import json
 import os
-import platform
 import sys
 import tempfile
 import time
 from collections.abc import Callable
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
 from benchmarks import sections
 from benchmarks.compete import Field, reason
 from benchmarks.general import general
+from benchmarks.machine import machine, vectors
 from benchmarks.page import RESULTS, SCHEMA
 from benchmarks.plan import FULL, QUICK, Plan
 from compare.output import check_writable, write_whole
@@ -29,7 +28,6 @@ SECTIONS: dict[str, Callable[[Plan, Field], dict[str, Any]]] = {
     "general": general,
     "verify": sections.verify,
 }
-PACKAGES = ("floquet-crosscheck", "numpy", "scipy", "casadi", "heyoka", "python-flint")
 
 
 def main(arguments: list[str] | None = None) -> None:
@@ -37,7 +35,10 @@ def main(arguments: list[str] | None = None) -> None:
     parser = argparse.ArgumentParser(prog="python -m benchmarks", description=__doc__)
     parser.add_argument("--quick", action="store_true", help="less of everything, within a minute")
     parser.add_argument("--only", nargs="+", choices=SECTIONS, metavar="SECTION", help="a part")
-    parser.add_argument("--output", type=Path, default=RESULTS, metavar="FILE")
+    own = RESULTS / f"{vectors()}.json"
+    parser.add_argument(
+        "--output", type=Path, default=own, metavar="FILE", help=f"(default results/{own.name})"
+    )
     parser.add_argument(
         "--before", type=Path, metavar="DIR", help="a checkout to time `verify` against"
     )
@@ -65,34 +66,6 @@ def main(arguments: list[str] | None = None) -> None:
     write_whole(options.output, json.dumps(_rounded(results), indent=1) + "\n")
     if any(name not in results for name in options.only or SECTIONS):
         sys.exit(1)
-
-
-def machine() -> dict[str, Any]:
-    """Processor, versions: nothing that says whose machine it is."""
-    return {
-        "processor": _processor(),
-        "cores": os.cpu_count(),
-        "system": platform.system(),
-        "python": platform.python_version(),
-        "threads": 1,
-        "versions": {name: _version(name) for name in PACKAGES},
-    }
-
-
-def _processor() -> str:
-    try:
-        text = Path("/proc/cpuinfo").read_text(encoding="utf-8")
-    except OSError:
-        return platform.processor() or platform.machine()
-    found = [line.split(":", 1)[1].strip() for line in text.splitlines() if "model name" in line]
-    return found[0] if found else platform.machine()
-
-
-def _version(name: str) -> str | None:
-    try:
-        return version(name)
-    except PackageNotFoundError:
-        return None
 
 
 def _rounded(value: Any) -> Any:
