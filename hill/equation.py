@@ -3,7 +3,7 @@
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -149,12 +149,12 @@ class HillEquation:
         ValueError
             `eta` is a matrix: no change of variable removes it.
         """
-        if np.ndim(self.eta) > 0:
+        if isinstance(self.eta, np.ndarray):
             raise ValueError(
                 "eta is a matrix: z and half a period need one number; "
                 "characteristic and monodromy do without"
             )
-        return cast(float, self.eta)
+        return self.eta
 
     @property
     def ratio(self) -> int:

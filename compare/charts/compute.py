@@ -177,10 +177,11 @@ def argument(fitted: surface.Surface, alone: Sequence[Cells], wanted: Scenario) 
     Omega, eta = on_mesh(wanted)
     for cells in chain(from_series(fitted, wanted.smooth), alone):
         P, at = cells.P, [cells.spread(x) for x in (Omega, eta)]
-        there = np.all(np.isfinite(P), axis=0)
-        if np.all(there):
+        finite = np.isfinite(P)
+        if np.all(finite):
             own = wanted.reading.argument(P, *at)
         else:
+            there = np.all(finite, axis=0)
             own = np.full(len(there), np.inf)
             own[there] = wanted.reading.argument(P[:, there], *(x[there] for x in at))
         T.T[cells.where] = own.reshape(cells.shape)
