@@ -5,16 +5,13 @@ the modes is not used, and the axial force of the stepped bar is solved for nume
 """
 
 from collections.abc import Callable
-from functools import cache, lru_cache
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import brentq
 
-from floquet.arrays import frozen
 from floquet.matrix_rounding import amplification, matrix_error
+from floquet.trial_functions import eigenvalues, sampled, trial_at
 from hill import (
     Fourier,
     HillEquation,
@@ -29,11 +26,6 @@ Array = NDArray[np.float64]
 Complex = NDArray[np.complexfloating]
 Force = Callable[[Array], Array]
 
-# Worst error measured for the mean of exp(i k xi) or exp(k xi) over a panel of k h <= PANEL_PHASE:
-# 4e-9 with 10 points, 1e-12 with 12, 1e-15 with 14; two more are in hand. From 18 on, the rounding
-# of numpy's weights grows to 1e-14.
-POINTS = 16
-PANEL_PHASE = 4.0 * np.pi
 # Omega/omega_L this many ulps from a resonance cannot be told from it: three roundings precede.
 RESONANCE_ULPS = 4
 
@@ -91,12 +83,12 @@ def galerkin(
         complete = _uniform_wave(beam, wave, Omega)
         pulsating = _uniform_force(beam, wave, Omega)
 
-    roots = _roots(beam.modes)
+    roots = eigenvalues(beam.modes)
     # The fastest integrands are two modes times the axial force.
-    xi, weight = _rule(2.0 * roots[-1] + np.pi * max(abs(wave), terms), step)
-    w, slope, curvature = _trial(roots, xi)
-    w_end, slope_end = _trial(roots, np.ones(1))[:2, :, 0]
-    slope_sensor = _trial(roots, np.array([beam.xi_G]))[1, :, 0]
+    xi, weight, shapes = sampled(beam.modes, np.pi * max(abs(wave), terms), step)
+    w, slope, curvature = shapes
+    w_end, slope_end, _ = trial_at(beam.modes, 1.0)
+    slope_sensor = trial_at(beam.modes, beam.xi_G)[1]
 
     mass = roots[0] ** 4 * _inner(w, w, weight * np.where(xi < step, area, 1.0))
     bending = _inner(curvature, curvature, weight * np.where(xi < step, inertia, 1.0))
@@ -160,9 +152,8 @@ def out_of_phase(beam: UniformBeam, Omega: float) -> Array:
     """
     wave = np.sqrt((Omega / beam.omega_L) ** 2 - 1j * beam.g)
     force = _uniform_wave(beam, wave, Omega)
-    roots = _roots(beam.modes)
-    xi, weight = _rule(2.0 * roots[-1] + np.pi * abs(wave), 0.0)
-    w, slope, _ = _trial(roots, xi)
+    roots = eigenvalues(beam.modes)
+    xi, weight, (w, slope, _) = sampled(beam.modes, np.pi * abs(wave), 0.0)
     mass = roots[0] ** 4 * _inner(w, w, weight)
     stiffness = -beam.T0 * _inner(slope, slope, weight * np.imag(force(xi)))
     matrix: Array = np.linalg.solve(mass, stiffness)[:-1, :-1]
@@ -234,54 +225,3 @@ def _axial_end(w_end: Array, slope_end: Array) -> Array:
 
 def _inner(test: Array, trial: Array, weight: Array) -> Array:
     return (test * weight) @ trial.T
-
-
-def _rule(wavenumber: float, step: float) -> tuple[Array, Array]:
-    """Composite Gauss-Legendre nodes and weights on [0, 1], with a joint at the step."""
-    panels = [
-        np.linspace(p, q, 1 + int(np.ceil((q - p) * wavenumber / PANEL_PHASE)))
-        for p, q in pairwise(sorted({0.0, step, 1.0}))
-    ]
-    edges = np.unique(np.concatenate(panels))
-    half = 0.5 * np.diff(edges)[:, np.newaxis]
-    node, weight = _gauss()
-    return (edges[:-1, np.newaxis] + half * (1.0 + node)).ravel(), (half * weight).ravel()
-
-
-@cache
-def _gauss() -> tuple[Array, Array]:
-    node, weight = np.polynomial.legendre.leggauss(POINTS)
-    return frozen(node), frozen(weight)
-
-
-@lru_cache(maxsize=64)
-def _roots(count: int) -> Array:
-    """lambda_n of cos x = 1/cosh x, as (n + 1/2) pi + d so that d is found to full precision."""
-
-    def residual(d: float, n: int) -> float:
-        decay = np.exp(-(n + 0.5) * np.pi - d)
-        return float(-((-1) ** n) * np.sin(d) - 2.0 * decay / (1.0 + decay**2))
-
-    pairs = [(n, (n + 0.5) * np.pi) for n in range(1, count + 1)]
-    found = [c + brentq(residual, -1.0, 1.0, (n,), xtol=1e-20) for n, c in pairs]
-    return frozen(np.array(found, float))
-
-
-def _trial(roots: Array, xi: Array) -> Array:
-    """phi_1 .. phi_N, xi, 1 and their first two derivatives at xi: (3, N + 2, points)."""
-    k = roots[:, np.newaxis]
-    cos, sin = np.cos(k * xi), np.sin(k * xi)
-    # cosh - s sinh in two exponentials; the growing one is measured from xi = 1, or it overflows
-    # and its small coefficient (1 - s)/2 = far exp(-lambda) is lost in rounding.
-    decay = np.exp(-k)
-    far = (np.cos(k) - np.sin(k) - decay) / (1.0 - decay**2 - 2.0 * decay * np.sin(k))
-    s = 1.0 - 2.0 * far * decay
-    near, growing = (1.0 - far * decay) * np.exp(-k * xi), far * np.exp(k * (xi - 1.0))
-    one, zero = np.ones((1, len(xi))), np.zeros((1, len(xi)))
-    return np.array(
-        [
-            np.vstack([cos - s * sin + near + growing, xi[np.newaxis], one]),
-            np.vstack([k * (-sin - s * cos - near + growing), one, zero]),
-            np.vstack([k**2 * (-cos + s * sin + near + growing), zero, zero]),
-        ]
-    )

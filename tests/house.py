@@ -76,6 +76,7 @@ ANSWERS = {
     "floquet.batch.equations.Polynomials",
     "floquet.batch.equations.polynomials",
     "floquet.batch.which_kernel.in_use",
+    "floquet.data_errors.data_share",
     "floquet.enclosure.enclose",
     "floquet.enclosure.enclose_interval",
     "floquet.enclosure.enclose_region",

@@ -13,6 +13,7 @@ from hill import HillEquation, SteppedBeam, UniformBeam
 
 # The module, whatever name the package may give to the function in it.
 inside = importlib.import_module("floquet.weak_form")
+shapes = importlib.import_module("floquet.trial_functions")
 
 # Largest difference measured over the grid below, relative to the largest element of the matrix:
 # 6e-15 for F and G, 1.2e-14 for H (N = 20); the rest is for other BLAS and libm.
@@ -96,13 +97,12 @@ def test_the_scalars_are_passed_on(beam: UniformBeam | SteppedBeam) -> None:
 def test_roots() -> None:
     published = [4.7300407448627040, 7.8532046240958376, 10.995607838001671]
     # Each is rounded once, and so is the literal: two units in the last place.
-    np.testing.assert_allclose(inside._roots(3), published, rtol=4e-16)
+    np.testing.assert_allclose(shapes.eigenvalues(3), published, rtol=4e-16)
 
 
 def test_modes_are_orthonormal_and_free_of_translation_and_rotation() -> None:
-    roots = inside._roots(20)
-    xi, weight = inside._rule(2 * roots[-1], 0.0)
-    w = inside._trial(roots, xi)[0]
+    roots = shapes.eigenvalues(20)
+    _, weight, (w, _, _) = shapes.sampled(len(roots), 0.0, 0.0)
     rigid = [[1 / 3, 1 / 2], [1 / 2, 1.0]]
     expected = np.block([[np.eye(20), np.zeros((20, 2))], [np.zeros((2, 20)), np.array(rigid)]])
     # Measured 2e-15; lambda_20 xi reaches 64, known to half an ulp of that, 7e-15.
@@ -110,8 +110,8 @@ def test_modes_are_orthonormal_and_free_of_translation_and_rotation() -> None:
 
 
 def test_modes_are_free_at_both_ends_and_start_at_two() -> None:
-    roots = inside._roots(20)
-    w, _, curvature = inside._trial(roots, np.array([0.0, 1.0]))
+    roots = shapes.eigenvalues(20)
+    w, _, curvature = shapes.trial(roots, np.array([0.0, 1.0]))
     # At xi = 1 the mode has the rounding of lambda_20, 7e-15, twice over: measured 1.6e-14.
     signs = (-1.0) ** np.arange(20)
     np.testing.assert_allclose(w[:20], 2.0 * np.stack([np.ones(20), signs], axis=1), atol=5e-14)
@@ -119,15 +119,15 @@ def test_modes_are_free_at_both_ends_and_start_at_two() -> None:
 
 
 def test_derivatives_of_the_modes_are_those_of_the_modes() -> None:
-    roots, h = inside._roots(5), 1e-5
+    roots, h = shapes.eigenvalues(5), 1e-5
     xi = np.linspace(0.1, 0.9, 9)
-    below, at, above = (inside._trial(roots, x) for x in (xi - h, xi, xi + h))
+    below, at, above = (shapes.trial(roots, x) for x in (xi - h, xi, xi + h))
     # Central difference: h**2 lambda_5**5 / 6 = 2e-5 of the curvature's slope.
     np.testing.assert_allclose((above[:2] - below[:2]) / (2 * h), at[1:], atol=1e-4)
 
 
 def test_translation_enters_no_stiffness() -> None:
-    _, slope, curvature = inside._trial(inside._roots(3), np.linspace(0.0, 1.0, 7))
+    _, slope, curvature = shapes.trial(shapes.eigenvalues(3), np.linspace(0.0, 1.0, 7))
     assert not np.any(slope[-1])
     assert not np.any(curvature[-1])
 
@@ -137,7 +137,7 @@ def test_more_points_change_nothing(
     beam: UniformBeam | SteppedBeam, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     rule = galerkin(beam, 1.7, 0.4)
-    monkeypatch.setattr(inside, "PANEL_PHASE", 0.5 * inside.PANEL_PHASE)
+    monkeypatch.setattr(shapes, "PANEL_PHASE", 0.5 * shapes.PANEL_PHASE)
     assert difference(galerkin(beam, 1.7, 0.4), rule) < TOLERANCE
 
 
@@ -149,7 +149,7 @@ def test_more_points_change_nothing(
         ("_axial_end", lambda w, slope: np.outer(slope, w), 0.1),
         ("_uniform_force", lambda *_: lambda xi: xi, 0.01),
         ("_stepped_force", lambda *_: lambda xi: xi, 0.01),
-        ("_roots", lambda n, roots=inside._roots: roots(n) * (1 + 1e-11), 1e-12),
+        ("eigenvalues", lambda n, roots=shapes.eigenvalues: roots(n) * (1 + 1e-11), 1e-12),
     ],
     ids=["no follower thrust", "transposed", "rigid uniform", "rigid stepped", "roots"],
 )
@@ -164,7 +164,10 @@ def test_an_altered_weak_form_is_seen(
         pytest.skip("the stepped beam has its own")
     if name == "_stepped_force" and isinstance(beam, UniformBeam):
         pytest.skip("the uniform beam has its own")
-    monkeypatch.setattr(inside, name, altered)
+    monkeypatch.setattr(shapes if name == "eigenvalues" else inside, name, altered)
+    # what is remembered knows nothing of it
+    for remembered in ("_on_panels", "trial_at"):
+        monkeypatch.setattr(shapes, remembered, getattr(shapes, remembered).__wrapped__)
     assert disagreement(beam, 1.7, 0.4) > least > 10 * TOLERANCE
 
 

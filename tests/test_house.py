@@ -250,8 +250,10 @@ def test_what_a_module_shares_cannot_be_written_to(name: str) -> None:
 @pytest.mark.parametrize(
     ("cached", "given"),
     [
-        ("floquet.weak_form._gauss", ()),
-        ("floquet.weak_form._roots", (3,)),
+        ("floquet.trial_functions._gauss", ()),
+        ("floquet.trial_functions._on_panels", (2, (0.0, 1.0), (1,))),
+        ("floquet.trial_functions.eigenvalues", (3,)),
+        ("floquet.trial_functions.trial_at", (2, 0.5)),
         ("hill.determinant.finite._gauss", ()),
         ("hill.matrices.modes.mode", (2,)),
         ("hill.matrices.stepped._bends", (2, 0.0, 0.6)),
@@ -260,6 +262,7 @@ def test_what_a_module_shares_cannot_be_written_to(name: str) -> None:
         ("hill.matrices.stepped._products", (2,)),
         ("hill.matrices.uniform._pairs", (2, 0.3)),
         ("hill.matrices.uniform._products", (2,)),
+        ("hill.matrices.uniform.steady", (2, 20.0, 0.5, 0.5)),
     ],
 )
 def test_what_is_remembered_cannot_be_written_to(cached: str, given: tuple[float, ...]) -> None:

@@ -211,3 +211,13 @@ def test_what_grows_is_within_its_bound_side_by_side(eta: float, monkeypatch) ->
         off = largest_error(P, reference(e))
         assert off <= error
         assert error < 1e-8 * np.abs(P).max()
+
+
+def test_the_routes_are_compared_where_both_know_P() -> None:
+    """Next to a pole growth makes much of the matrices' last digits; elsewhere they agree."""
+    both = made("both")
+    assert both.routes_agree
+    told = np.isfinite(both.apart)
+    assert 0.99 < told.mean() < 1.0
+    Omega, omega_L = both.sampled[~told].T
+    assert np.abs(Omega / omega_L - 1.0).max() < 2e-3

@@ -18,11 +18,16 @@ from compare.charts.identity import (
 from compare.charts.scenario import Scenario
 from compare.charts.store import Store
 from compare.jobs.workers import MapLike, WorkersError, unordered
+from floquet.data_errors import data_share
+from hill import HillEquation
 from hill.system import FORCING, varied
 
 Float = NDArray[np.floating[Any]]
 
 ROUTES = ("floquet", "hill", "both")
+
+SAME = 1e-11
+"""Of P's largest coefficient: the routes are said to differ beyond it, however small P's bound."""
 
 NODES_PER_JOB = 256
 """What is lost, at most, of a process that is killed.
@@ -75,8 +80,10 @@ def evaluate(job: Job) -> Float:
     -------
     (k, degree + 3) ndarray
         Coefficients, highest power first; bound on their error; difference between the routes,
-        over the largest coefficient (nan where only one was asked). A line of nan on a pole of the
-        system, of infinities where P is beyond a float.
+        over the largest coefficient (nan where only one was asked, and where it is beyond `SAME`
+        but no more than what both may be off, their matrices' rounding included: nothing is
+        compared there). A line of nan on a pole of the system, of infinities where P is beyond a
+        float.
     """
     values = dict(zip(job.scenario.names, job.points.T, strict=True))
     return solved(job.scenario, values, job.route)
@@ -120,7 +127,15 @@ def _lines(scenario: Scenario, routes: Sequence[str], made: Sequence[Sequence[An
     P, errors = own[0].coefficients, own[0].errors
     apart = np.full(len(P), np.nan)
     if len(own) == 2:
-        apart = np.max(np.abs(P - own[1].coefficients), axis=1) / np.max(np.abs(P), axis=1)
+        difference = np.max(np.abs(P - own[1].coefficients), axis=1)
+        apart = difference / np.max(np.abs(P), axis=1)
+        for k in np.flatnonzero(apart > SAME):
+            # as next to a pole, where much growth makes much of a matrix's last digit
+            both = (equations[int(k)] for equations in made)
+            shares = [data_share(e) for e in both if isinstance(e, HillEquation)]
+            known_to = errors[k] + own[1].errors[k] + sum(shares) * np.sum(np.abs(P[k]))
+            if difference[k] <= known_to:
+                apart[k] = np.nan
     return np.column_stack([P, errors, apart])
 
 

@@ -30,9 +30,6 @@ Float = NDArray[np.floating[Any]]
 MAX_ASKED_AGAIN = 10_000
 """Points that the series leaves undecided and that are then evaluated: a second or two."""
 
-SAME = 1e-11
-"""Of P's largest coefficient: the routes are said to differ beyond it, however small P's bound."""
-
 
 @dataclass(frozen=True, eq=False)
 class Chart:
@@ -57,12 +54,13 @@ class Chart:
         At how many of 40 random points; the others have no series, or direct evaluation knows P
         less well than the series there.
     disagreement : float
-        Largest difference between the two routes at the nodes, over the largest coefficient of P;
-        nan where only one route was asked.
+        Largest difference between the two routes at the nodes, over the largest coefficient of P,
+        where both know P well enough to tell; nan where only one route was asked.
     sampled : (nodes, axes) ndarray
         Where P was evaluated.
     apart : (nodes,) ndarray
-        Difference between the two routes there, as `disagreement`.
+        Difference between the two routes there, as `disagreement`; nan where P is not known well
+        enough to tell, as next to a pole.
     one_by_one : dict of str to int
         Why points of the grid were evaluated without a series, and how many.
     resumed : int
@@ -124,7 +122,7 @@ class Chart:
     @property
     def routes_agree(self) -> bool:
         """Whether the routes differ by no more than P's error allows; True where one was asked."""
-        return self.route != "both" or self.disagreement <= max(self.relative_error, SAME)
+        return self.route != "both" or self.disagreement <= max(self.relative_error, nodes.SAME)
 
     @property
     def contradicted(self) -> int:

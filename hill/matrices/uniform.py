@@ -14,9 +14,10 @@ from hill.matrices.integrals import sine_integral
 from hill.matrices.modes import UNIT, Exponentials, eigenvalue, mode, slope
 
 
+@lru_cache(maxsize=512)
 def steady(modes: int, T0: float, K_theta: float, xi_G: float) -> Float:
     """F of Eqs. (4.5.19) to (4.5.22), shape (modes + 1, modes + 1)."""
-    return stiffness(modes) + _thrust(modes, T0, K_theta, xi_G, nu=0.0)
+    return frozen(stiffness(modes) + _thrust(modes, T0, K_theta, xi_G, nu=0.0))
 
 
 def pulsating(modes: int, T0: float, K_theta: float, xi_G: float, sigma: complex) -> Float:
