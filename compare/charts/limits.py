@@ -95,9 +95,10 @@ def _check_promise(system: Any, model: HillEquation, forcing: Values) -> None:
         "gamma": 0.5 * gamma + 0.125,
         "eta": 0.5 * eta + 0.03125 * Omega,
     }
-    kept = _same(own_equation(system, **asked), model, asked)
+    other = own_equation(system, **asked)
+    kept = _same(other, model, asked)
     own = model.damping - eta if np.ndim(model.eta) == 0 else 0.0
-    if own and not kept:
+    if own and _same(other, model, asked | {"eta": asked["eta"] + own}):
         raise ValueError(
             f"{type(system).__name__}: adds damping of its own, {own:g}, to eta; leave it out and "
             "give it as the forcing's eta, or T is read with the wrong one"
