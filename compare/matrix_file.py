@@ -52,13 +52,14 @@ def _named(available: Mapping[str, Any], array: str, path: Path) -> Any:
 def _npz(path: Path, array: str) -> Any:
     from zipfile import BadZipFile
 
-    try:
-        archive = np.load(path, allow_pickle=False)
-    except (BadZipFile, EOFError, ValueError):
-        archive = None
-    if not hasattr(archive, "files"):
-        raise ValueError(f"{path.name}: is not an .npz archive")
-    with archive:
+    # opened here: numpy leaves a file open that it cannot read
+    with path.open("rb") as file:
+        try:
+            archive = np.load(file, allow_pickle=False)
+        except (BadZipFile, EOFError, ValueError):
+            archive = None
+        if not hasattr(archive, "files"):
+            raise ValueError(f"{path.name}: is not an .npz archive")
         # of the others nothing is read
         name = _named({name: name for name in archive.files}, array, path)
         try:

@@ -48,7 +48,8 @@ Patch = pytest.MonkeyPatch
 
 def rebuild(monkeypatch: Patch) -> None:
     """CasADi functions are cached; a mutated one is compiled anew and does not outlive its test."""
-    for module, name in ((taylor, "_step"), (taylor, "folded"), (cvodes, "_integrator")):
+    cached = ((taylor, "_step"), (taylor, "_march"), (taylor, "folded"), (cvodes, "_integrator"))
+    for module, name in cached:
         monkeypatch.setattr(module, name, lru_cache(getattr(module, name).__wrapped__))
 
 
@@ -540,6 +541,6 @@ def test_the_rule_of_truncation(name: str, monkeypatch: Patch) -> None:
 
 def test_every_cache_is_rebuilt() -> None:
     """`rebuild` reaches all that holds a compiled equation."""
-    for module, names in ((taylor, {"_step", "folded"}), (cvodes, {"_integrator"})):
+    for module, names in ((taylor, {"_step", "_march", "folded"}), (cvodes, {"_integrator"})):
         cached = {name for name, value in vars(module).items() if hasattr(value, "cache_clear")}
         assert cached == names

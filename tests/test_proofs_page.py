@@ -102,7 +102,7 @@ def test_what_is_not_on_the_page_is_computed(monkeypatch: pytest.MonkeyPatch) ->
 
 
 class _Here:
-    def __init__(self, _: int) -> None:
+    def __init__(self, *_: int, **__: bool) -> None:
         pass
 
     def __enter__(self) -> object:

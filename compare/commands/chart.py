@@ -67,8 +67,8 @@ takes, of anybody's system, and may have the axes too:
   high = 0.5
   count = 1000
 
-exit status: 0 done; 1 the routes disagree beyond the chart's error, or a verdict
-contradicts what is proven of its cell; 2 wrong usage or input."""
+exit status: 0 done; 1 the routes disagree beyond the chart's error, or a
+verdict contradicts what is proven of its cell; 2 wrong usage or input."""
 
 
 BESIDE: dict[str, Any] = {

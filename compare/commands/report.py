@@ -46,8 +46,8 @@ examples:
                                       with the figures that `verify figures`
                                       wrote into ./figures
   verify report --output pages --draw --prove --workers 2
-                                      compute and draw the figures too, and prove
-                                      every row (extra `proof`)
+                                      compute and draw the figures too, and
+                                      prove every row (extra `proof`)
   verify report mine.toml --set gamma=0.2 --output pages
                                       the same of a system of one's own: both
                                       routes, its chart, its resonances
