@@ -153,7 +153,7 @@ def check_drawn(
         matplotlib is not installed.
     """
     if len(axes) > 2:
-        raise ValueError(f"a picture needs one or two axes, the chart has {len(axes)}")
+        raise ValueError(f"output: a picture needs one or two axes, the chart has {len(axes)}")
     for name, value in zip(("width", "height"), size, strict=True):
         checks.between(f"{name} of the picture", value, *SIZES)
     lows = dict(axes)

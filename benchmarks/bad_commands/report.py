@@ -180,7 +180,7 @@ def _all() -> dict[str, tuple[list[str], str]]:
     for value in ("0", "-1", "x", "1.5"):
         add(f"order {value}", [*CHART, "--order", value], "")
     for output in (
-        "x.pdf",
+        "x.gif",
         "x",
         "x.toml",
         "folder",

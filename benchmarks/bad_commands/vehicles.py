@@ -102,7 +102,7 @@ OPTIONS = (
     ["--set", "gama=1"], ["--set", "gamma=nan"], ["--set", "gamma=x"], ["--set", "gamma"],
     ["--set", "Omega=-1"], ["--set", "Omega=0"], ["--set", "eta=nan"], ["--set", "modes=0"],
     ["--set", "modes=1.5"], ["--set", "modes=1e9"], ["--set", "modes=3000"],
-    ["--chart", "x.pdf"], ["--chart", "x"], ["--chart", "folder"], ["--chart", "gone/x.png"],
+    ["--chart", "x.gif"], ["--chart", "x"], ["--chart", "folder"], ["--chart", "gone/x.png"],
     ["--chart", "locked.csv"], ["--chart", "x.png", "--set", "gamma=0"], ["--more-modes", "-1"],
     ["--more-modes", "x"], ["--more-modes", "1.5"], ["--more-modes", "1000000000"],
     ["--set", "gamma=1e300"], ["--set", "Omega=1e-300"], ["--modes", "3"],
