@@ -13,6 +13,7 @@ from scipy.linalg import eigh
 from scipy.optimize import brentq
 from vehicles import finite_elements, random_vehicle
 
+from benchmarks.validation.beams import TEXTBOOK
 from hill import PointMass, Refused, Section, Vehicle
 from hill.vehicle.mesh import mesh
 from hill.vehicle.modes import Modes, modes, rigid_motions
@@ -26,24 +27,6 @@ ONE = Section(2.0, 3.0, 5.0)
 def wavenumbers(found: Modes) -> np.ndarray:
     """lambda l of the fourth root, as textbooks tabulate it, of a uniform vehicle."""
     return found.lam**0.25
-
-
-# Blevins, Formulas for Natural Frequency and Mode Shape, table 8-1; Young and Felgar (the report's
-# reference 7) has the free beam's as 4.7300408, 7.8532046, 10.9956078, 14.1371655, 17.2787596.
-TEXTBOOK: dict[tuple[End, End], tuple[str, ...]] = {
-    ("free", "free"): ("4.73004074", "7.85320462", "10.9956078", "14.1371655", "17.2787597"),
-    ("clamped", "free"): ("1.87510407", "4.69409113", "7.85475744", "10.99554073", "14.13716839"),
-    ("pinned", "free"): ("3.92660231", "7.06858275", "10.21017612", "13.35176878", "16.49336143"),
-    ("clamped", "pinned"): (
-        "3.92660231",
-        "7.06858275",
-        "10.21017612",
-        "13.35176878",
-        "16.49336143",
-    ),
-    ("clamped", "clamped"): ("4.73004074", "7.85320462", "10.9956078", "14.1371655", "17.2787597"),
-    ("pinned", "pinned"): ("3.14159265", "6.28318531", "9.42477796", "12.56637061", "15.70796327"),
-}
 
 
 @pytest.mark.parametrize("ends", TEXTBOOK)

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from hill import Damping, PointMass, Section, Sensor, Thrust, Vehicle
+from hill import Damping, PointMass, Section, Sensor, Thrust, Units, Vehicle
 
 # Free vehicles are what it is about; the others are where the literature has numbers.
 ENDS = (
@@ -50,7 +50,7 @@ def random_vehicle(seed: int) -> Vehicle:
         g=_log(rng, 1e-3, 0.3) if rng.random() < 0.5 else 0.0,
         axial_damping="report" if rng.random() < 0.5 else "hysteretic",
         quadrature_force=bool(rng.random() < 0.8),
-        units="none",  # type: ignore[arg-type]
+        units=Units.named("none"),
         modes=int(rng.integers(1, 6)),
     )
 
