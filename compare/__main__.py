@@ -171,12 +171,12 @@ def _version() -> str:
     import platform
     from importlib.metadata import version
 
-    from floquet.batch import in_use
+    from floquet.batch import kernel_in_use
 
     parts = [f"{name} {version(name)}" for name in ("numpy", "scipy", "casadi")]
     own = f"floquet-crosscheck {version('floquet-crosscheck')}"
     packages = f"{own} (Python {platform.python_version()}, {', '.join(parts)})"
-    return f"{packages}\nmany points at once: {in_use()}"
+    return f"{packages}\nmany points at once: {kernel_in_use()}"
 
 
 class _Signalled(KeyboardInterrupt):

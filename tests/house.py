@@ -75,7 +75,7 @@ COMPUTED = {"equation", "frequencies", "natural_frequencies", "singular_Omega"}
 ANSWERS = {
     "floquet.batch.equations.Polynomials",
     "floquet.batch.equations.polynomials",
-    "floquet.batch.which_kernel.in_use",
+    "floquet.batch.which_kernel.kernel_in_use",
     "floquet.data_errors.data_share",
     "floquet.enclosure.enclose",
     "floquet.enclosure.enclose_interval",

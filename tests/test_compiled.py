@@ -18,7 +18,7 @@ import pytest
 
 from floquet.batch import c_kernel
 from floquet.batch.numpy_kernel import ORDER, TOLERANCE, Found, Points, by_numpy
-from floquet.batch.which_kernel import in_use
+from floquet.batch.which_kernel import kernel_in_use
 from floquet.integrate.step_length import RADII, fastest_rate, longest_step
 
 pytestmark = pytest.mark.skipif(
@@ -67,16 +67,16 @@ def test_it_is_kept_and_belongs_to_the_user(own_cache: Path) -> None:
 def test_it_is_said_which_kernel_is_in_use(
     own_cache: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    assert in_use().endswith("none built yet")
+    assert kernel_in_use().endswith("none built yet")
     assert works()
-    assert in_use().endswith("1 built and kept")
+    assert kernel_in_use().endswith("1 built and kept")
     library(own_cache).chmod(0o666)  # what others can write to does not count
-    assert in_use().endswith("none built yet")
+    assert kernel_in_use().endswith("none built yet")
     fake(tmp_path, monkeypatch, f"touch {tmp_path}/run; sleep 60")
-    assert in_use().startswith("compiled by fakecc")
+    assert kernel_in_use().startswith("compiled by fakecc")
     assert not (tmp_path / "run").exists()
     monkeypatch.setattr(c_kernel, "compiler", lambda: None)
-    assert in_use() == "by numpy, as there is no C compiler"
+    assert kernel_in_use() == "by numpy, as there is no C compiler"
 
 
 @pytest.mark.parametrize("content", [b"", b"\x7fELF", None], ids=["empty", "ELF", "truncated"])
@@ -134,7 +134,7 @@ def test_a_folder_of_somebody_else_is_not_used(
     own_cache.mkdir(parents=True, mode=0o700)
     # to root, who runs this in a container, every mode is writable; the owner is what tells
     monkeypatch.setattr(os, "getuid", lambda: own_cache.stat().st_uid + 1)
-    assert c_kernel._folder() != own_cache
+    assert c_kernel.cache_folder() != own_cache
     assert list(own_cache.iterdir()) == []
 
 

@@ -1,6 +1,6 @@
 """P(z) of many equations at once."""
 
 from floquet.batch.equations import Polynomials, polynomials, sweep
-from floquet.batch.which_kernel import in_use
+from floquet.batch.which_kernel import kernel_in_use
 
-__all__ = ["Polynomials", "in_use", "polynomials", "sweep"]
+__all__ = ["Polynomials", "kernel_in_use", "polynomials", "sweep"]

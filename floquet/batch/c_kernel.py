@@ -133,13 +133,13 @@ def _loaded(library: Path) -> Any:
 
     A truncated library would end the process as it is mapped, a planted one do what it likes.
     """
-    if not _is_intact(library):
+    if not is_intact(library):
         library.unlink(missing_ok=True)
         raise OSError("not what was built")
     return ctypes.CDLL(str(library)).march
 
 
-def _is_intact(library: Path) -> bool:
+def is_intact(library: Path) -> bool:
     """Whether a library and the digest beside it are the user's own, and belong together."""
     digest = library.with_suffix(".sha256")
     if not all(path.is_file() and _is_own(path) for path in (library, digest)):
@@ -156,10 +156,10 @@ def _built(command: str, n: int, terms: int) -> Path:
     source = files("floquet").joinpath("batch", "kernel.c").read_bytes()
     options = [f"-D{name}={value}" for name, value in defines(n, terms).items()]
     version = _run([command, "--version"], b"", VERSION_TIMEOUT)
-    key = hashlib.sha256(repr((source, command, version, options, FLAGS, _cpu())).encode())
-    folder = _folder()
+    key = hashlib.sha256(repr((source, command, version, options, FLAGS, processor())).encode())
+    folder = cache_folder()
     target = folder / f"march-{n}-{terms}-{key.hexdigest()[:24]}.so"
-    if not _is_intact(target):
+    if not is_intact(target):
         # a name of its own, then one rename: processes may build the same at the same time
         handle, name = tempfile.mkstemp(dir=folder, suffix=".so")
         os.close(handle)
@@ -235,7 +235,8 @@ def _blocks(n: int) -> tuple[int, int]:
     return columns, columns * rows
 
 
-def _folder() -> Path:
+def cache_folder() -> Path:
+    """Where kernels are kept, made if it is not there."""
     home = os.environ.get("XDG_CACHE_HOME")
     try:
         folder = (Path(home) if home else Path.home() / ".cache") / "floquet-crosscheck"
@@ -263,7 +264,7 @@ def _while_running() -> Path:
     return Path(folder)
 
 
-def _cpu() -> str:
+def processor() -> str:
     """What ``-march=native`` means here: a cache may be shared between machines."""
     try:
         lines = Path("/proc/cpuinfo").read_text(encoding="ascii", errors="replace").splitlines()

@@ -48,7 +48,8 @@ ULPS, SWELL, GROWN, DATA_ULPS, P_ULPS = 8.0, 4.0, 1.2, 3.0, 4.0
 # largest on the report's chart.
 REFINE_ABOVE = 1e-10
 
-# So many of them go through the whole period side by side: as long as two or three alone.
+# So many of them go through the whole period side by side: of three coordinates 2 take 1.2 times as
+# long as one after the other, 4 .95 times, 8 .6 and 32 .3 times.
 MIN_WHOLE = 4
 
 

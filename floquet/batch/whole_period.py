@@ -17,9 +17,11 @@ from floquet.integrate.step_length import fastest_rate, longest_step, perron_roo
 from hill import HillEquation
 
 # Points side by side: neighbours in what limits their steps, which grows without end near a pole.
+# 256 take 988 ms by 8, 619 by 16, 397 by 32, 308 by 64 and 321 all together.
 CHUNK = 64
 
-# Steps of the check over those of the run: neither truncation nor rounding are then alike.
+# Steps of the check over those of the run: neither truncation nor rounding are then alike. From 1.1
+# to 2 times as many give the same bounds, over 64 systems that grow: rounding is most of them.
 CHECK_SHARE = 4.0 / 3.0
 
 
