@@ -86,6 +86,8 @@ class System(Protocol):
         The system with other values of some parameters, where it is no dataclass.
     values
         A mapping of the parameters' names to their numbers, where they are no attributes.
+    damping_apart()
+        The system without the damping that it adds to eta, and that damping.
     """
 
     @property
@@ -126,6 +128,12 @@ def varied(system: Any, values: Mapping[str, float]) -> Any:
     if is_dataclass(system) and not isinstance(system, type):
         return replace(system, **values)
     raise ValueError(f"{type(system).__name__}: must be a dataclass, or have varied(**values)")
+
+
+def with_damping_apart(system: Any, eta: float) -> tuple[Any, float]:
+    """The same under the same damping, all of it in eta, by which a chart reads T."""
+    bare, own = system.damping_apart() if hasattr(system, "damping_apart") else (system, 0.0)
+    return bare, eta + own
 
 
 def natural_frequencies(system: System, Omega: float = 1.0) -> Complex:

@@ -14,9 +14,9 @@ from compare.chart_ticks import ticks_in_cycles
 from compare.edges.tongue import RANGE, TIP
 from compare.vehicle import charted as module
 from compare.vehicle.charted import charted
-from compare.vehicle.damping import damping_as_forcing
 from compare.vehicle.study import Study, study
 from hill import Damping, Vehicle
+from hill.system import with_damping_apart
 
 pytest.importorskip("skfem")
 matplotlib = pytest.importorskip("matplotlib")
@@ -155,6 +155,6 @@ def test_a_general_vehicle_is_not_refused(monkeypatch: Any, tmp_path: Path) -> N
 
 def test_damping_of_its_own_is_moved_to_the_forcing() -> None:
     v = Vehicle.from_file(UNIFORM)
-    system, eta = damping_as_forcing(v, 0.01)
+    system, eta = with_damping_apart(v, 0.01)
     assert system.damping == Damping()
     assert eta == 0.01 + v.damping.eta

@@ -13,9 +13,8 @@ from compare.charts.axis import Axis
 from compare.charts.limits import checked, largest_elements, own_equation, slow_enough
 from compare.charts.smooth import Smooth
 from compare.stability.reading import Reading, reading_of
-from compare.vehicle.damping import damping_as_forcing
 from floquet.witness import maker
-from hill import HillEquation, PeriodicEquation, Singular, System, Vehicle, checks
+from hill import HillEquation, PeriodicEquation, Singular, System, checks
 from hill.oscillations.steady import mean_frequencies
 from hill.system import (
     FORCING,
@@ -23,6 +22,7 @@ from hill.system import (
     natural_frequencies,
     parameter_values,
     varied,
+    with_damping_apart,
 )
 
 Float = NDArray[np.floating[Any]]
@@ -186,9 +186,9 @@ def scenario(
         )
     own = {p.name: p.smooth for p in system.parameters}
     drawn = _drawn(axes, own)
-    if isinstance(system, Vehicle) and "eta" not in [axis.name for axis in drawn]:
-        system, in_all = damping_as_forcing(system, (forcing or {}).get("eta", 0.0))
-        forcing = {**(forcing or {}), "eta": in_all}
+    if "eta" not in [axis.name for axis in drawn]:
+        system, eta_in_all = with_damping_apart(system, (forcing or {}).get("eta", 0.0))
+        forcing = {**(forcing or {}), "eta": eta_in_all}
     given = {"eta": 0.0, **(forcing or {})}
     names = [axis.name for axis in drawn]
     _check_names(names, list(own), forcing or {})

@@ -8,8 +8,8 @@ from typing import Any
 from compare import system_file
 from compare.report.tables import STEPPED, UNIFORM
 from compare.system_file import Described
-from compare.vehicle.damping import damping_as_forcing
-from hill import SteppedBeam, UniformBeam, Vehicle, checks
+from hill import SteppedBeam, UniformBeam, checks
+from hill.system import with_damping_apart
 
 BEAMS = ("uniform", "stepped")
 
@@ -56,10 +56,11 @@ def asked(options: argparse.Namespace) -> Described:
 
 
 def _damping_in_forcing(found: Described) -> Described:
-    if not isinstance(found.system, Vehicle) or found.system.damping.eta == 0.0:
-        return found
-    system, eta = damping_as_forcing(found.system, found.forcing.get("eta", 0.0))
-    return replace(found, system=system, forcing={**found.forcing, "eta": eta})
+    own = found.forcing.get("eta", 0.0)
+    system, eta = with_damping_apart(found.system, own)
+    return (
+        found if eta == own else replace(found, system=system, forcing=found.forcing | {"eta": eta})
+    )
 
 
 def with_axes(found: Described, typed: list[list[str]], set_words: list[str]) -> Described:

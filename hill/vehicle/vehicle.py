@@ -195,6 +195,10 @@ class Vehicle:
         """The same with other values of some parameters."""
         return varied(self, values)
 
+    def damping_apart(self) -> tuple["Vehicle", float]:
+        """The same without ``damping.eta``, and that."""
+        return replace(self, damping=replace(self.damping, eta=0.0)), self.damping.eta
+
     def equation(
         self, Omega: float, gamma: float, eta: float = 0.0
     ) -> HillEquation | PeriodicEquation:
